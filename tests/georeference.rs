@@ -478,7 +478,7 @@ fn references_say_unit_axis_place_and_north() {
 /// Footprints know nothing of the sea: the elevation is that of the next model that says one, in whatever order.
 #[test]
 fn heights_above_the_ground_say_no_elevation() {
-    let footprints = Model { stands_on_ground: true, ..on_map("EPSG:31467", GAUSS, 0.0) };
+    let footprints = Model { from_ground: vec![true], ..on_map("EPSG:31467", GAUSS, 0.0) };
     let city = on_map("EPSG:31467", GAUSS, 110.4);
     for files in [[("a.glb", footprints.clone()), ("b.glb", city.clone())], [("a.glb", city), ("b.glb", footprints)]] {
         let found = load("[[model]]\npath = \"a.glb\"\n[[model]]\npath = \"b.glb\"\n", &files).expect("a place");

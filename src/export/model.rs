@@ -101,6 +101,9 @@ fn component(model: &Model, index: usize) -> Value {
     if kind != PartKind::Building {
         told["kind"] = kind.word().into();
     }
+    if model.is_from_ground(index) {
+        told["from_ground"] = true.into();
+    }
     told
 }
 
@@ -137,9 +140,6 @@ fn scene(placed: &PlacedModel) -> Value {
     }
     if placed.up_is_said {
         told["up"] = "y".into();
-    }
-    if model.stands_on_ground {
-        told["stands_on_ground"] = true.into();
     }
     if !model.anchors.is_empty() {
         let said = |found: &Anchor| {

@@ -22,7 +22,7 @@ const MARK: [u8; 8] = *b"gnomonMD";
 
 /// Of the bytes, and of what readers make of files: what an older program kept is not used by a newer one that reads
 /// otherwise.
-pub(super) const VERSION: u32 = 1;
+pub(super) const VERSION: u32 = 2;
 
 /// The longest JSON: a thousand bytes a component.
 const MOST_JSON: u64 = 1 << 30;
@@ -57,8 +57,10 @@ struct EncodedHeader {
     #[serde(with = "exact_option")]
     unit_m: Option<f64>,
     coordinates: Coordinates,
-    stands_on_ground: bool,
+    from_ground: Vec<bool>,
     anchors: Vec<EncodedAnchor>,
+    #[serde(with = "exact_option")]
+    assumed_map_unit_m: Option<f64>,
     left_out: Vec<LeftOut>,
     notes: Vec<Message>,
     see_through: Vec<SeeThrough>,
@@ -156,8 +158,9 @@ fn header(model: &Model, fault: Option<Message>) -> EncodedHeader {
         up_is_said: model.up_is_said,
         unit_m: model.unit_m,
         coordinates: model.coordinates.clone(),
-        stands_on_ground: model.stands_on_ground,
+        from_ground: model.from_ground.clone(),
         anchors: model.anchors.iter().map(anchor).collect(),
+        assumed_map_unit_m: model.assumed_map_unit_m,
         left_out: model.left_out.clone(),
         notes: model.notes.clone(),
         see_through: model.see_through.clone(),
@@ -214,7 +217,8 @@ impl EncodedHeader {
         }
         let count = self.parts.len();
         let parts_are_there = self.see_through.iter().flat_map(|material| &material.parts).all(|part| *part < count);
-        if !parts_are_there || !(self.kinds.is_empty() || self.kinds.len() == count) {
+        let is_of_parts = |length: usize| length == 0 || length == count;
+        if !parts_are_there || !is_of_parts(self.kinds.len()) || !is_of_parts(self.from_ground.len()) {
             return Err(EncodingError::Damaged("they speak of parts that are not there"));
         }
         Ok(())
@@ -235,8 +239,9 @@ fn model(header: EncodedHeader, parts: Vec<Part>) -> Result<Model, EncodingError
         up_is_said: header.up_is_said,
         unit_m: header.unit_m,
         coordinates: header.coordinates,
-        stands_on_ground: header.stands_on_ground,
+        from_ground: header.from_ground,
         anchors: header.anchors.into_iter().map(anchor).collect::<Result<_, EncodingError>>()?,
+        assumed_map_unit_m: header.assumed_map_unit_m,
         left_out: header.left_out,
         notes: header.notes,
         see_through: header.see_through,

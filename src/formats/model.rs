@@ -26,11 +26,14 @@ pub struct Model {
     pub unit_m: Option<f64>,
     /// The meaning of the coordinates.
     pub coordinates: Coordinates,
-    /// Whether heights are measured from the ground, which the file does not know. Its parts then stand on the terrain
-    /// below them, if there is any.
-    pub stands_on_ground: bool,
+    /// Of each part whether its heights are measured from the ground, which the file does not know: it then stands on the
+    /// terrain below it, if there is any. As many as there are parts; empty if none does.
+    pub from_ground: Vec<bool>,
     /// Where the file says that its own zero lies, the most exact anchor first. If several disagree, all are shown.
     pub anchors: Vec<Anchor>,
+    /// The length in metres of the unit in which an anchor's easting and northing are taken, where the file does not say
+    /// it; the map itself may be in another one.
+    pub assumed_map_unit_m: Option<f64>,
     /// What the file contains but the model does not.
     pub left_out: Vec<LeftOut>,
     /// What else the user should know of how the file was read: sentences without their full stop, whose subject is the
@@ -293,6 +296,16 @@ impl Model {
     /// The kind of a part.
     pub fn kind(&self, part: usize) -> PartKind {
         self.kinds.get(part).copied().unwrap_or_default()
+    }
+
+    /// Whether a part's heights are measured from the ground.
+    pub fn is_from_ground(&self, part: usize) -> bool {
+        self.from_ground.get(part).copied().unwrap_or_default()
+    }
+
+    /// Whether those of all parts are, so that the model says no height above the sea.
+    pub fn stands_on_ground(&self) -> bool {
+        !self.from_ground.is_empty() && self.from_ground.iter().all(|is_from_ground| *is_from_ground)
     }
 
     /// The number of its triangles.

@@ -232,20 +232,7 @@ fn unit_note(model: &Model, placement: &Placement, crs: &Crs, height_m: f64) -> 
 fn of_anchors(model: &Model, placement: &Placement, asked: Option<&Crs>) -> Georeference {
     let mut notes = Vec::new();
     let farthest_m = farthest_m(model, placement);
-    let mut read: Vec<(&Anchor, AnchoredZero)> = Vec::new();
-    let mut unplaced: Vec<&Anchor> = Vec::new();
-    for anchor in &model.anchors {
-        match zero(anchor, asked, farthest_m) {
-            Ok(zero) => {
-                notes.extend(place_doubts::of(zero.at, anchor.said_by));
-                read.push((anchor, zero));
-            }
-            Err(doubt) => {
-                notes.push(doubt);
-                unplaced.push(anchor);
-            }
-        }
-    }
+    let (read, unplaced) = read_anchors(model, asked, farthest_m, &mut notes);
     // the zero of what lies far from it is a number of the map alone
     let outside = |(anchor, zero): &(&Anchor, AnchoredZero)| {
         let (crs, at) = zero.on_map.as_ref().filter(|_| farthest_m <= FAR_FROM_ZERO_M)?;
@@ -279,7 +266,9 @@ fn of_anchors(model: &Model, placement: &Placement, asked: Option<&Crs>) -> Geor
     );
     notes.extend(unplaced.iter().filter_map(|other| place_doubts::turned_apart(anchor.said_by, &zero, other)));
     notes.extend(scale_doubt(anchor, placement.unit_m(model)));
-    let said_by = anchor.said_by.to_owned();
+    // the file's numbers, on the map that the user names
+    let is_on_asked = asked.is_some() && zero.on_map.is_some();
+    let said_by = if is_on_asked { format!("{} with `crs`", anchor.said_by) } else { anchor.said_by.to_owned() };
     if farthest_m > FAR_FROM_ZERO_M
         && let Some(reference) = beyond(model, placement, anchor, &zero)
     {
@@ -287,6 +276,31 @@ fn of_anchors(model: &Model, placement: &Placement, asked: Option<&Crs>) -> Geor
         return Georeference { reference, said_by, notes };
     }
     Georeference { reference: Reference::Anchor(Box::new(zero)), said_by, notes }
+}
+
+/// The anchors that say something of the zero, and those that cannot be used.
+fn read_anchors<'a>(
+    model: &'a Model,
+    asked: Option<&Crs>,
+    farthest_m: f64,
+    notes: &mut Vec<Message>,
+) -> (Vec<(&'a Anchor, AnchoredZero)>, Vec<&'a Anchor>) {
+    let (mut read, mut unplaced) = (Vec::new(), Vec::new());
+    for anchor in &model.anchors {
+        notes.extend(asked.and_then(|asked| place_doubts::other_map(anchor, asked)));
+        match zero(anchor, asked, farthest_m) {
+            Ok(zero) => {
+                notes.extend(place_doubts::of(zero.at, anchor.said_by));
+                notes.extend(unit_doubt(model, anchor, &zero));
+                read.push((anchor, zero));
+            }
+            Err(doubt) => {
+                notes.push(doubt);
+                unplaced.push(anchor);
+            }
+        }
+    }
+    (read, unplaced)
 }
 
 /// Where an anchor puts the zero; or why it cannot be used, as a note.
@@ -324,6 +338,29 @@ fn zero(anchor: &Anchor, asked: Option<&Crs>, farthest_m: f64) -> Result<Anchore
             zero_on_map(anchor, named, DVec3::new(*easting, *northing, 0.0), *height, farthest_m)
         }
     }
+}
+
+/// A note if an anchor does not say the unit of its point, and its map is in another one than is assumed.
+fn unit_doubt(model: &Model, anchor: &Anchor, zero: &AnchoredZero) -> Option<Message> {
+    let (assumed_m, (crs, at)) = model.assumed_map_unit_m.zip(zero.on_map.as_ref())?;
+    let written = at.truncate() * crs.unit_m() / assumed_m;
+    let is_one = crs.kind() != CrsKind::Projected || (assumed_m / crs.unit_m() - 1.0).abs() <= ONE_UNIT;
+    (!is_one).then(|| {
+        let what = format!(
+            "says by its {} {:.0}, {:.0} without the map's unit (MapUnit), which is taken to be {assumed_m} m; that of {} is \
+             {:.7} m",
+            anchor.said_by,
+            written.x,
+            written.y,
+            crs.name(),
+            crs.unit_m()
+        );
+        message![
+            what;
+            "say MapUnit in the file, or write ", setting("[[model]]", "position", "`position` under [[model]]"),
+            " if it stands elsewhere"
+        ]
+    })
 }
 
 /// The system of an anchor on a map: the user's word, otherwise the file's.

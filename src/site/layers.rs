@@ -36,6 +36,14 @@ pub(super) fn keep(model: &mut Model, names: &Names, at: impl Fn() -> FieldLocat
     };
     let numbers: Vec<usize> = chosen.iter().scan(0, number).collect();
     model.kinds = kinds.into_iter().enumerate().filter(|(part, _)| stays(*part)).map(|(_, kind)| kind).collect();
+    if !model.from_ground.is_empty() {
+        let mut of_part = chosen.iter();
+        model.from_ground.retain(|_| of_part.next().copied().unwrap_or_default());
+        // none of those that stay may be so
+        if !model.from_ground.contains(&true) {
+            model.from_ground.clear();
+        }
+    }
     let mut part = 0;
     model.parts.retain(|_| {
         part += 1;

@@ -4,7 +4,7 @@ use super::contents::ModelContents;
 use super::error::{FieldLocation, SiteError};
 use super::extent::with_shadows;
 use super::model_place::{ModelReference, elevation_note};
-use super::models::{Models, name, read_placed};
+use super::models::{Models, name, read_elevation};
 use super::overrides::{Overrides, refuse};
 use super::written::WrittenSite;
 use super::{Ground, Site, camera, ground, notes, plan, study};
@@ -62,8 +62,8 @@ fn elevation(
     if is_written || written.site.model.is_empty() {
         return Ok((None, None));
     }
-    match read_placed(written, read_model) {
-        Ok(placed) => Ok(placed.elevation.map_or((None, None), |of| {
+    match read_elevation(written, read_model) {
+        Ok(elevation) => Ok(elevation.map_or((None, None), |of| {
             let note = elevation_note(of.height_m).about(name(written, of.model));
             (Some(of.height_m), Some(note))
         })),

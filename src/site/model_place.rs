@@ -69,7 +69,7 @@ impl ModelReference {
         let (crs, on_map) = match &said.reference {
             Reference::Placement => (None, None),
             Reference::Map { crs, map_from_model, .. } => {
-                (Some(&**crs), map_middle(model, *map_from_model).map(|at| (Crs::clone(crs), at)))
+                (Some(&**crs), map_middle(model, crs, *map_from_model).map(|at| (Crs::clone(crs), at)))
             }
             Reference::Anchor(zero) => (zero.on_map.as_ref().map(|(crs, _)| crs), zero.on_map.clone()),
         };
@@ -118,7 +118,7 @@ impl ModelReference {
         }
         let elevation_m = frame.local.elevation_m();
         let said = self.said.filter(|_| stands.is_where_said).map(|said| {
-            match said.has_height || stands.model.stands_on_ground {
+            match said.has_height || stands.model.stands_on_ground() {
                 true => said,
                 // without a height it stands as high as the place
                 false => EarthPoint {
@@ -207,7 +207,7 @@ fn written_frame<'a>(
     let elevation = if table.elevation.is_none() { models.enumerate().find_map(said) } else { None };
     let around = elevation.as_ref().and_then(|of| LocalFrame::around(GeodeticPoint { height_m: of.height_m, ..at }));
     let has_elevation = table.elevation.is_some() || around.is_some();
-    let frame = Some(SiteFrame { local: around.unwrap_or(local), has_elevation });
+    let frame = Some(SiteFrame { local: around.unwrap_or(local), has_elevation, is_of: None });
     ModelsFrame { frame, proposed: None, elevation }
 }
 
@@ -233,15 +233,13 @@ pub(super) fn frame<'a>(
     if let Some(point) = written.point()? {
         return Ok(written_frame(&table, point, models));
     }
-    let mut proposed: Vec<(ProposedPoint, String, bool)> = Vec::new();
-    for (name, model, _, said) in models {
-        if let Some(point) = proposal(model, said) {
-            let is_doubted = place_doubts::of(Some(point.at), &said.said_by).is_some();
-            proposed.push((point, format!("{}, {}", file_name(name), said.said_by), is_doubted));
-        }
-    }
-    let sure = proposed.iter().find(|(.., is_doubted)| !is_doubted).or(proposed.first());
-    let Some((ProposedPoint { at, has_elevation }, said, _)) = sure else { return Ok(ModelsFrame::default()) };
+    let proposed: Vec<(ProposedPoint, &str, &Georeference)> =
+        models.filter_map(|(name, model, _, said)| Some((proposal(model, said)?, file_name(name), said))).collect();
+    let is_sure = |(point, _, said): &&(ProposedPoint, &str, &Georeference)| {
+        place_doubts::of(Some(point.at), &said.said_by).is_none()
+    };
+    let sure = proposed.iter().find(is_sure).or(proposed.first());
+    let Some((ProposedPoint { at, has_elevation }, name, said)) = sure else { return Ok(ModelsFrame::default()) };
     // where the first says no elevation, another may
     let with_elevation =
         || proposed.iter().find(|(point, ..)| point.has_elevation).map(|(point, ..)| point.at.height_m);
@@ -252,11 +250,16 @@ pub(super) fn frame<'a>(
         latitude: Some(at.latitude_deg),
         longitude: Some(at.longitude_deg),
         elevation,
-        source: Some(PlaceSource { said: said.clone(), at: [at.latitude_deg, at.longitude_deg] }),
+        source: Some(PlaceSource {
+            said: format!("{name}, {}", said.said_by),
+            at: [at.latitude_deg, at.longitude_deg],
+        }),
         ..table
     };
+    let point = if matches!(said.reference, Reference::Map { .. }) { "middle" } else { "zero" };
+    let is_of = Some(format!("the {point} of {name}"));
     let local = LocalFrame::around(GeodeticPoint { height_m, ..*at });
-    let frame = local.map(|local| SiteFrame { local, has_elevation: elevation.is_some() });
+    let frame = local.map(|local| SiteFrame { local, has_elevation: elevation.is_some(), is_of });
     Ok(ModelsFrame { frame, proposed: Some(table), elevation: None })
 }
 
@@ -292,8 +295,9 @@ impl WrittenSite {
     /// Why one of the models cannot stand where it is said.
     pub(super) fn model_fault(&self, index: usize, fault: StandFault) -> SiteError {
         match fault {
-            StandFault::Key(key, message) => refuse(self.model_key(index, key), message),
-            StandFault::File(message) => {
+            StandFault::Key(key, message) if !self.is_bare_model() => refuse(self.model_key(index, key), message),
+            // without a site file there is no key, and the model is at fault
+            StandFault::Key(_, message) | StandFault::File(message) => {
                 let path = self.site.model.get(index).and_then(|table| table.path.as_deref()).unwrap_or_default();
                 ModelError { file: self.folder.join(path), fault: message.into() }.into()
             }

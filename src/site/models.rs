@@ -328,12 +328,15 @@ pub(super) struct PlacedModels {
     pub(super) references: Vec<ModelReference>,
 }
 
-/// Reads the models, and puts them into one frame: around the site's place, else around that which a file proposes.
-pub(super) fn read_placed(
+/// A model as its file has it, and what is said of where it stands.
+type UnplacedModel = (Placement, Model, Georeference);
+
+/// Reads the models, and finds the frame in which they stand.
+fn read_unplaced(
     written: &WrittenSite,
     read_model: impl Fn(&Path, &ReadOptions) -> Result<Model, ModelError>,
-) -> Result<PlacedModels, SiteError> {
-    let mut read = Vec::new();
+) -> Result<(Vec<UnplacedModel>, ModelsFrame), SiteError> {
+    let mut read: Vec<UnplacedModel> = Vec::new();
     for index in 0..written.site.model.len() {
         let (placement, mut model) = model(written, index, &read_model)?;
         if matches!(model.coordinates, Coordinates::Map(_)) {
@@ -345,7 +348,24 @@ pub(super) fn read_placed(
     }
     let of_model = |(index, (placement, model, said))| (name(written, index), model, placement, said);
     let all = read.iter().map(|(placement, model, said)| (placement, model, said)).enumerate().map(of_model);
-    let ModelsFrame { frame, proposed, elevation } = model_place::frame(written, all)?;
+    let frame = model_place::frame(written, all)?;
+    Ok((read, frame))
+}
+
+/// The place's elevation, where it is a model's file that says it. The models are read for that, and stand nowhere.
+pub(super) fn read_elevation(
+    written: &WrittenSite,
+    read_model: impl Fn(&Path, &ReadOptions) -> Result<Model, ModelError>,
+) -> Result<Option<ModelElevation>, SiteError> {
+    Ok(read_unplaced(written, read_model)?.1.elevation)
+}
+
+/// Reads the models, and puts them into one frame: around the site's place, else around that which a file proposes.
+pub(super) fn read_placed(
+    written: &WrittenSite,
+    read_model: impl Fn(&Path, &ReadOptions) -> Result<Model, ModelError>,
+) -> Result<PlacedModels, SiteError> {
+    let (read, ModelsFrame { frame, proposed, elevation }) = read_unplaced(written, read_model)?;
     let mut placed = PlacedModels {
         models: Vec::new(),
         proposed: proposed.or_else(|| elevation.as_ref().map(ModelElevation::proposed)),

@@ -3,7 +3,7 @@
 use super::stand::StandingModel;
 use crate::formats::PartKind;
 use crate::mesh::Part;
-use crate::message::message;
+use crate::message::{Message, message};
 use glam::{DVec2, DVec3};
 use std::ops::RangeInclusive;
 
@@ -13,28 +13,52 @@ const MOST_CELLS: f64 = 1024.0;
 /// Moves the parts of models that stand on the ground up or down to the terrain below them: to its lowest point below their
 /// corners, from which OpenStreetMap, too, measures heights. Without terrain they stand at the place's elevation.
 pub(super) fn settle(models: &mut [StandingModel]) {
-    if !models.iter().any(|standing| standing.model.stands_on_ground) {
+    let is_one = |standing: &StandingModel| standing.model.from_ground.contains(&true);
+    if !models.iter().any(is_one) {
         return;
     }
-    let Some(terrain) = TerrainHeights::of(models) else { return };
-    for standing in models.iter_mut().filter(|standing| standing.model.stands_on_ground) {
-        let mut beyond = 0;
-        for part in &mut standing.model.parts {
-            let heights = part.positions.iter().filter_map(|corner| terrain.height(corner.truncate()));
-            match heights.min_by(f64::total_cmp) {
-                Some(lowest) => part.positions.iter_mut().for_each(|corner| corner.z += lowest),
-                None => beyond += 1,
+    let terrain = TerrainHeights::of(models);
+    for standing in models.iter_mut().filter(|standing| is_one(standing)) {
+        // where its file says how high its zero lies, that is no height of the ground
+        let zero_m = if standing.is_where_said { standing.position.z } else { 0.0 };
+        let StandingModel { model, notes, .. } = standing;
+        let (mut settled, mut beyond) = (0, 0);
+        for (part, _) in model.parts.iter_mut().zip(&model.from_ground).filter(|(_, is_from_ground)| **is_from_ground) {
+            let height = |corner: &DVec3| terrain.as_ref()?.height(corner.truncate());
+            let lowest = part.positions.iter().filter_map(height).min_by(f64::total_cmp);
+            if lowest.is_some() {
+                settled += 1
+            } else {
+                beyond += 1
             }
+            let up = lowest.unwrap_or_default() - zero_m;
+            part.positions.iter_mut().for_each(|corner| corner.z += up);
         }
-        let count = standing.model.parts.len();
-        standing.notes.push(message![
-            format!("says no height of the ground: {} of its {count} parts stand on the terrain", count - beyond),
-            match beyond {
-                0 => String::new(),
-                beyond => format!(", and {beyond}, which lie beyond it, at the place's elevation"),
-            }
-        ]);
+        // without terrain they stand at one height, and only what stands so beside others is told
+        if terrain.is_some() || !model.stands_on_ground() {
+            notes.push(told([settled, beyond], model.parts.len(), terrain.is_some()));
+        }
     }
+}
+
+/// That some of a model's parts say no height of the ground, and how many stand on the terrain, and how many beyond it.
+fn told([settled, beyond]: [usize; 2], count: usize, has_terrain: bool) -> Message {
+    let without = settled + beyond;
+    if !has_terrain {
+        return message![format!(
+            "says no height of the ground of {without} of its {count} parts, which stand at the place's elevation, beside \
+             others that are above the sea"
+        )];
+    }
+    let (of, whose) = match without == count {
+        true => (String::new(), format!(" of its {count} parts")),
+        false => (format!(" of {without} of its {count} parts"), String::new()),
+    };
+    let beyond = match beyond {
+        0 => String::new(),
+        beyond => format!(", and {beyond}, which lie beyond it, at the place's elevation"),
+    };
+    message![format!("says no height of the ground{of}: {settled}{whose} stand on the terrain{beyond}")]
 }
 
 /// The terrain's triangles, by the cells of a raster that they touch.

@@ -67,6 +67,29 @@ pub(super) fn outside(crs: &Crs, at: DVec3, said_by: Option<&str>) -> Option<Mes
     ])
 }
 
+/// A note if the file says another map of an anchor's point than the user does, and the point is elsewhere there.
+pub(super) fn other_map(anchor: &Anchor, asked: &Crs) -> Option<Message> {
+    let AnchorPoint::Map { crs, easting, northing, .. } = &anchor.at else { return None };
+    let of_file = Crs::read(crs);
+    let name = of_file.as_ref().map_or_else(|_| crs.trim(), Crs::name);
+    if name.is_empty() || name == asked.name() {
+        return None;
+    }
+    let point = |crs: &Crs| crs.to_wgs84((DVec3::new(*easting, *northing, 0.0) / crs.unit_m()).with_z(0.0));
+    let frame = of_file.as_ref().ok().and_then(|of_file| LocalFrame::around(point(of_file)?));
+    let away = frame.and_then(|frame| frame.distance_m(point(asked)?));
+    if away.is_some_and(|away| away < ONE_PLACE_M) {
+        return None;
+    }
+    let away = away.map(|away| format!(", {} from there", length(away))).unwrap_or_default();
+    let key = || setting("[[model]]", "crs", "`crs` under [[model]]");
+    Some(message![
+        format!("says by its {} that it stands in {name}; ", anchor.said_by), key(),
+        format!(" says {}{away}, and that is taken", asked.name());
+        "leave out ", key(), " if the file is right"
+    ])
+}
+
 /// A note if another source contradicts the one that is used. What only one of them says is no contradiction.
 pub(super) fn apart(used: &str, one: &AnchoredZero, other_by: &str, other: &AnchoredZero) -> Option<Message> {
     let away = one.at.zip(other.at).and_then(|(one, other)| {

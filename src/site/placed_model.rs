@@ -83,7 +83,7 @@ fn around_its_middle(
 ) -> Result<(Model, Anchor, Message), StandFault> {
     let around = |ProposedPoint { at, has_elevation }| {
         let at = GeodeticPoint { height_m: if has_elevation { at.height_m } else { 0.0 }, ..at };
-        Some((at, SiteFrame { local: LocalFrame::around(at)?, has_elevation }))
+        Some((at, SiteFrame { local: LocalFrame::around(at)?, has_elevation, is_of: None }))
     };
     let (at, frame) = proposal(&model, &said)
         .and_then(around)
@@ -93,7 +93,7 @@ fn around_its_middle(
     model.anchors.clear();
     model.coordinates = Coordinates::Local;
     // heights from the ground stand on whatever height the place has
-    let elevation_m = (!model.stands_on_ground).then_some(at.height_m);
+    let elevation_m = (!model.stands_on_ground()).then_some(at.height_m);
     let height = elevation_m.map(|height| format!(", {} above the sea", metres(height))).unwrap_or_default();
     let note = message![format!(
         "was in the coordinates of a map, and stands in metres east, north and up of {}{height}, by true north",

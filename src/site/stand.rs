@@ -6,7 +6,7 @@ use super::model_bounds::bounds;
 use super::place_doubts::{ONE_PLACE_M, angle, degrees, length, norths_apart};
 use super::placement::Placement;
 use crate::crs::{Crs, CrsKind, GeodeticPoint, LocalFrame, MapToLocal, TOO_FAR_M};
-use crate::formats::{Model, PartKind};
+use crate::formats::{Model, PartKind, Up};
 use crate::message::{Message, message, set_to, setting};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
@@ -22,6 +22,8 @@ pub(super) const ONE_MERIDIAN_RAD: f64 = 0.005 * std::f64::consts::PI / 180.0;
 pub(super) struct SiteFrame {
     pub(super) local: LocalFrame,
     pub(super) has_elevation: bool,
+    /// What of a model the place is, where its file says the place: "the middle of town.city.json".
+    pub(super) is_of: Option<String>,
 }
 
 /// A model in the world frame.
@@ -80,14 +82,19 @@ pub(super) fn stand(
             let AnchoredPosition { position, north_rad, is_where_said, note } =
                 anchored(&zero, &said_by, placement, frame)?;
             notes.extend(note);
+            if zero.at.is_none() {
+                notes.extend(note_unplaced(&model, placement, frame, true));
+            }
             Ok(by_site(model, north_rad, position, notes, [zero.at.is_some(), is_where_said]))
         }
         (Reference::Anchor(zero), None) => {
             let north_rad = placement.north_rad.or(true_north(&zero)).unwrap_or_default();
             Ok(by_site(model, north_rad, position, notes, [false; 2]))
         }
-        (Reference::Placement | Reference::Map { .. }, _) => {
+        (Reference::Placement | Reference::Map { .. }, frame) => {
             notes.extend(note_no_map(&model, placement));
+            let is_turned = placement.north_rad.is_some();
+            notes.extend(frame.and_then(|frame| note_unplaced(&model, placement, frame, is_turned)));
             Ok(by_site(model, north_rad, position, notes, [false; 2]))
         }
     }
@@ -106,6 +113,23 @@ fn note_no_map(model: &Model, placement: &Placement) -> Option<Message> {
     })
 }
 
+/// That nobody says where a model stands, though the place is only what another one's file says: nobody has chosen the
+/// point at which both meet.
+fn note_unplaced(model: &Model, placement: &Placement, frame: &SiteFrame, is_turned: bool) -> Option<Message> {
+    let is_terrain = model.kinds.contains(&PartKind::Terrain);
+    let of = frame.is_of.as_ref().filter(|_| placement.position.is_none() && !is_terrain)?;
+    let axis = match placement.up.unwrap_or(model.up) {
+        Up::Y => "−z",
+        Up::Z => "y",
+    };
+    let turned = if is_turned { String::new() } else { format!(", with its {axis} to the north") };
+    Some(message![
+        format!("says no place: its zero stands at {of}{turned}");
+        "if it stands elsewhere, write ", setting("[[model]]", "position", "`position`"), " and ",
+        setting("[[model]]", "north", "`north` under [[model]]")
+    ])
+}
+
 /// Every corner from a map into the frame.
 fn converted(
     mut model: Model,
@@ -117,9 +141,11 @@ fn converted(
 ) -> Result<Model, StandFault> {
     let to = MapToLocal { crs, frame: &frame.local };
     let height_unit_m = model.unit_m.unwrap_or(1.0);
-    for part in &mut model.parts {
+    let from_ground = std::mem::take(&mut model.from_ground);
+    for (index, part) in model.parts.iter_mut().enumerate() {
         part.positions.par_iter_mut().for_each(|corner| *corner = map_from_model.transform_point3(*corner));
-        let heights = model.stands_on_ground.then(|| part.positions.iter().map(|corner| corner.z).collect::<Vec<_>>());
+        let is_from_ground = from_ground.get(index).copied().unwrap_or_default();
+        let heights = is_from_ground.then(|| part.positions.iter().map(|corner| corner.z).collect::<Vec<_>>());
         to.convert(&mut part.positions).map_err(|index| {
             // what cannot be converted is still what it was
             let at = part.positions.get(index).copied().unwrap_or_default();
@@ -134,6 +160,7 @@ fn converted(
         part.positions.par_iter_mut().for_each(|corner| *corner += position);
         part.coarse.iter_mut().for_each(|run| run.step_m *= unit_m);
     }
+    model.from_ground = from_ground;
     Ok(model)
 }
 
@@ -347,7 +374,7 @@ pub(super) fn proposal(model: &Model, said: &Georeference) -> Option<ProposedPoi
         Reference::Anchor(zero) => (zero.at?, zero.has_height, 8),
         Reference::Map { crs, map_from_model, .. } => {
             // heights above the ground say nothing of the sea
-            (middle(model, crs, *map_from_model)?, !model.stands_on_ground, 6)
+            (middle(model, crs, *map_from_model)?, !model.stands_on_ground(), 6)
         }
     };
     let at = GeodeticPoint {
@@ -361,8 +388,17 @@ pub(super) fn proposal(model: &Model, said: &Georeference) -> Option<ProposedPoi
 }
 
 /// The middle of a box around a model, in the units of its map; its height is the lowest.
-pub(super) fn map_middle(model: &Model, map_from_model: DAffine3) -> Option<DVec3> {
-    let [low, high] = bounds(model, |corner| map_from_model.transform_point3(corner))?;
+pub(super) fn map_middle(model: &Model, crs: &Crs, map_from_model: DAffine3) -> Option<DVec3> {
+    let of_map = |corner: DVec3| map_from_model.transform_point3(corner);
+    let [mut low, mut high] = bounds(model, of_map)?;
+    // what lies on both sides of the meridian of 180° is not as wide as the Earth
+    if crs.kind() == CrsKind::Geographic && high.x - low.x > 180.0 {
+        let eastward = |corner: DVec3| of_map(corner).with_x(of_map(corner).x.rem_euclid(360.0));
+        let [west, east] = bounds(model, eastward)?;
+        if east.x - west.x < high.x - low.x {
+            [low, high] = [west, east];
+        }
+    }
     Some(((low + high) / 2.0).with_z(low.z))
 }
 
@@ -376,6 +412,10 @@ fn middle(model: &Model, crs: &Crs, map_from_model: DAffine3) -> Option<Geodetic
         let [lowest, _] = bounds(model, height)?;
         return Some(GeodeticPoint { height_m: lowest.z.floor(), ..at });
     }
-    let at = map_middle(model, map_from_model)?;
-    Some(GeodeticPoint { height_m: at.z.floor(), ..crs.to_wgs84(at)? })
+    let at = map_middle(model, crs, map_from_model)?;
+    // heights above the ground say nothing of the sea
+    let of_sea = model.parts.iter().enumerate().filter(|(part, _)| !model.is_from_ground(*part));
+    let heights = of_sea.flat_map(|(_, part)| &part.positions).map(|corner| of_map(*corner).z);
+    let lowest = if model.from_ground.is_empty() { None } else { heights.reduce(f64::min) };
+    Some(GeodeticPoint { height_m: lowest.unwrap_or(at.z).floor(), ..crs.to_wgs84(at)? })
 }

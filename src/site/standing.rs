@@ -45,7 +45,8 @@ pub(super) fn note(mesh: &Mesh, terrain: &TerrainFaces, components: &[usize], mo
         told.fold((0, 0.0), |(count, most): (usize, f64), amount| (count + 1, most.max(amount)))
     };
     let (floating, highest) = of(|building| building.floats_m);
-    let (sunk, deepest) = of(|building| building.sinks_m);
+    let (sunk, deepest) = of(|building| if building.is_buried { 0.0 } else { building.sinks_m });
+    let (buried, lowest) = of(|building| if building.is_buried { building.sinks_m } else { 0.0 });
     let beside = buildings.iter().filter(|building| building.is_beside).count();
     let verb = |count: usize, one: &str, many: &str| format!("{count} {}", if count == 1 { one } else { many });
     let mut told = Vec::new();
@@ -57,6 +58,11 @@ pub(super) fn note(mesh: &Mesh, terrain: &TerrainFaces, components: &[usize], mo
         let verb = verb(sunk, "reaches", "reach");
         told.push(format!("{verb} below the terrain, as cellars do, by up to {}", metres(deepest)));
     }
+    // nobody builds so, but heights that count from elsewhere look so
+    if buried > 0 {
+        let verb = verb(buried, "lies", "lie");
+        told.push(format!("{verb} wholly below the terrain, down to {} below it, and cannot be seen", metres(lowest)));
+    }
     // where all stand elsewhere the terrain is of another place, or meant for one of several models
     if beside > 0 {
         told.push(format!("{} beyond the terrain's edge", verb(beside, "stands", "stand")));
@@ -66,9 +72,13 @@ pub(super) fn note(mesh: &Mesh, terrain: &TerrainFaces, components: &[usize], mo
         1 => format!("{model} has 1 building: {}", told.join("; ")),
         count => format!("{model} has {count} buildings: {}", told.join("; ")),
     };
-    Some(match floating > 0 {
-        true => message![what; "light falls under what floats: `position` under [[model]] moves a model"],
-        false => message![what],
+    Some(match (floating > 0, buried > 0) {
+        (true, _) => message![what; "light falls under what floats: `position` under [[model]] moves a model"],
+        (false, true) => message![
+            what;
+            "if no cellar is meant, its heights count from elsewhere: `position` under [[model]] moves a model"
+        ],
+        (false, false) => message![what],
     })
 }
 
@@ -79,6 +89,8 @@ struct Building {
     floats_m: f64,
     /// How far it reaches below the terrain.
     sinks_m: f64,
+    /// All of it is below the terrain.
+    is_buried: bool,
     /// There is no terrain below it.
     is_beside: bool,
 }
@@ -92,6 +104,8 @@ struct BuiltCell {
     above: f64,
     /// How far any of its points is below the terrain.
     below: f64,
+    /// The height above the terrain of that of its points that is the highest above it; −∞ where none has terrain.
+    highest: f64,
 }
 
 /// Square cells over the plan of some faces.
@@ -151,7 +165,7 @@ impl CellRaster {
 
     fn buildings(&self, mesh: &Mesh, terrain: &TerrainFaces, faces: &[u32]) -> Vec<Building> {
         let terrain = self.terrain(mesh, terrain);
-        let empty = BuiltCell { lowest: f64::INFINITY, above: f64::NAN, below: 0.0 };
+        let empty = BuiltCell { lowest: f64::INFINITY, above: f64::NAN, below: 0.0, highest: f64::NEG_INFINITY };
         let mut cells = vec![empty; self.columns * self.rows];
         let mut add = |cell: usize, point: DVec3| {
             let above = match terrain[cell] {
@@ -160,6 +174,7 @@ impl CellRaster {
             };
             let built = &mut cells[cell];
             built.below = built.below.max(-above);
+            built.highest = built.highest.max(above);
             if point.z < built.lowest - LEVEL_M {
                 (built.lowest, built.above) = (point.z, above);
             } else if point.z <= built.lowest + LEVEL_M {
@@ -213,11 +228,14 @@ impl CellRaster {
 fn building(cells: &[BuiltCell], island: &[usize]) -> Building {
     let of_island = || island.iter().map(|&cell| &cells[cell]);
     let lowest = of_island().map(|cell| cell.lowest).fold(f64::INFINITY, f64::min);
+    let highest = of_island().map(|cell| cell.highest).fold(f64::NEG_INFINITY, f64::max);
     let foot = of_island().filter(|cell| cell.lowest <= lowest + TOLD_M);
     Building {
         // the maximum leaves out what is no number
         floats_m: foot.map(|cell| cell.above).fold(0.0, f64::max),
         sinks_m: of_island().map(|cell| cell.below).fold(0.0, f64::max),
+        // beyond the terrain's edge it may be seen
+        is_buried: highest < 0.0 && of_island().all(|cell| !cell.above.is_nan()),
         is_beside: of_island().all(|cell| cell.above.is_nan()),
     }
 }

@@ -129,7 +129,7 @@ fn comes_back(name: &str, text: &str) -> (Model, ModelReference) {
         |model: &Model| model.parts.iter().map(|part| (part.name.clone(), part.aliases.clone())).collect::<Vec<_>>();
     assert_eq!(names(&read_after), names(&read_before));
     assert_eq!(read_after.kinds, read_before.kinds);
-    assert_eq!(read_after.stands_on_ground, read_before.stands_on_ground);
+    assert_eq!(read_after.from_ground, read_before.from_ground);
     let glass = |model: &Model| {
         let mut found: Vec<_> = model.see_through.iter().map(|it| (it.material.clone(), it.parts.clone())).collect();
         found.sort();
@@ -154,12 +154,20 @@ fn models_on_maps_stand_in_metres_around_their_place() {
         })
     };
     let (model, said) = comes_back("map.geojson", &collection(json!(outline)).to_string());
-    assert!(model.stands_on_ground && !said.stands.unwrap().has_height, "its height is that of any ground");
+    assert!(model.stands_on_ground() && !said.stands.unwrap().has_height, "its height is that of any ground");
     let corners = [[8.4365934, 49.1003936], [8.4368674, 49.100395], [8.4368643, 49.1006648], [8.4365934, 49.1003936]];
     let mut degrees = collection(json!(corners));
     degrees.as_object_mut().unwrap().remove("crs");
     comes_back("degrees.geojson", &degrees.to_string());
     let high = outline.map(|[x, y]| [x, y, 110.0]);
+    // one of each stands by its own heights
+    let mut mixed = collection(json!(outline));
+    let mut other = collection(json!(high))["features"][0].take();
+    other["properties"]["name"] = json!("hall");
+    mixed["features"].as_array_mut().unwrap().push(other);
+    let (model, said) = comes_back("mixed.geojson", &mixed.to_string());
+    assert_eq!((model.from_ground.clone(), model.stands_on_ground()), (vec![true, false], false));
+    assert!((said.stands.unwrap().at.height_m - 110.0).abs() < 1e-9, "that of the hall: {said:?}");
     let (model, said) = comes_back("high.geojson", &collection(json!(high)).to_string());
     let stands = said.stands.unwrap();
     assert!(stands.has_height && (stands.at.height_m - 110.0).abs() < 1e-9, "{said:?}");

@@ -1,11 +1,14 @@
 //! What nobody meant, or nobody uses, is told.
 
-use super::{LONG_LAT, PLACE, STUDY, UTM, anchored, corners, drawing, load, map_anchor, one, sheet, site_anchor};
+use super::{
+    LONG_LAT, PLACE, STUDY, UTM, anchored, corners, drawing, folder, load, map_anchor, on_map, one, sheet, site_anchor,
+};
 use crate::shared::said;
 use glam::DVec3;
 use gnomon::crs::Crs;
-use gnomon::formats::{Anchor, AnchorPoint, Model};
-use gnomon::site::{Overrides, Site, WrittenSite, load_mesh};
+use gnomon::formats::{Anchor, AnchorPoint, Model, ModelError, ReadOptions, Up};
+use gnomon::site::{Models, Overrides, Site, WrittenSite, load_mesh};
+use std::path::Path;
 
 /// A triangle of PLY, z up.
 const PLY: &str = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
@@ -101,6 +104,122 @@ fn an_elevation_that_nobody_wrote_is_a_files() {
     let site = load(&format!("{place}elevation = 0.0\n{models}"), &both).expect("written");
     assert_eq!((site.place.elevation_m, corners(&site.mesh, 1)[0].z.round()), (0.0, 110.0));
     assert!(!told(&site).contains("the elevation of the place"), "{}", told(&site));
+}
+
+/// Without a site file there is no key to be named, and of several models that which is at fault is.
+#[test]
+fn of_bare_models_the_one_at_fault_is_named() {
+    let folder = folder("", &["near.glb", "far.glb"]);
+    let [near, far] = ["near.glb", "far.glb"].map(|name| folder.path().join(name));
+    let asked = Overrides { beside: vec![far.clone()], ..Overrides::default() };
+    let written = WrittenSite::read(&near, &asked).expect("two models");
+    let sydney = AnchorPoint::Map {
+        crs: "EPSG:7856".to_owned(),
+        easting: 334_000.0,
+        northing: 6_251_000.0,
+        height: None,
+        scale: 1.0,
+    };
+    let there = anchored(vec![Anchor { at: sydney, ..map_anchor(0.0) }]);
+    let read = |path: &Path, _: &ReadOptions| -> Result<Model, ModelError> {
+        Ok(if path.ends_with("far.glb") { there.clone() } else { anchored(vec![map_anchor(0.0)]) })
+    };
+    let told = Models::read(&written, read).expect_err("on the other side of the Earth").to_string();
+    assert!(told.starts_with(&format!("{}: ", far.display())) && !told.contains("[[model]]"), "{told}");
+}
+
+/// Two houses beside the meridian of 180°, some 20 m to its west and to its east.
+#[test]
+fn what_lies_across_180_degrees_stands_together() {
+    let house = |west: f64| [[west, -17.0], [west + 0.0001, -17.0], [west, -16.9999]];
+    let corners = [house(179.9998), house(-179.9999)].concat();
+    let positions = corners.iter().map(|[x, y]| DVec3::new(*x, *y, 5.0)).collect();
+    let mut model = on_map("OGC:CRS84", [[0.0; 2]; 3], 0.0);
+    (model.parts[0].positions, model.parts[0].triangles) = (positions, vec![[0, 1, 2], [3, 4, 5]]);
+    let keys = "[[model]]\npath = \"house.glb\"\n";
+    for place in ["", "[place]\nlatitude = -17.0\nlongitude = 179.99\n"] {
+        let folder = folder(&format!("{place}{keys}"), &["house.glb"]);
+        let written = WrittenSite::read(folder.path(), &Overrides::default()).expect("a site");
+        let models = Models::read(&written, |_, _| Ok(model.clone())).expect("models");
+        let at = models.references()[0].stands.expect("a place").at;
+        assert!(at.longitude_deg.abs() > 179.9998 && (at.latitude_deg + 17.0).abs() < 0.001, "{place}: {at:?}");
+    }
+    let site = load(keys, &[("house.glb", model)]).expect("a place");
+    let (low, high) = site.mesh.bounds().expect("triangles");
+    assert!((high.x - low.x) < 45.0, "{low} {high}");
+}
+
+/// A file's point on a map in feet, without its unit.
+#[test]
+fn a_map_in_another_unit_than_is_assumed_is_told() {
+    let at = |crs: &str, easting: f64, northing: f64| {
+        let at = AnchorPoint::Map { crs: crs.to_owned(), easting, northing, height: None, scale: 1.0 };
+        vec![Anchor { at, ..map_anchor(0.0) }]
+    };
+    let note = |anchors: Vec<Anchor>, assumed_map_unit_m: Option<f64>| {
+        let house = Model { assumed_map_unit_m, ..anchored(anchors) };
+        let site = load("[[model]]\npath = \"house.glb\"\n", &[("house.glb", house)]).expect("a place");
+        said(&site.notes).into_iter().find(|note| note.contains("MapUnit"))
+    };
+    let new_york = || at("EPSG:2263", 300_000.0, 60_000.0);
+    let told = note(new_york(), Some(1.0)).expect("a note");
+    assert!(told.contains("300000, 60000") && told.contains("taken to be 1 m; that of EPSG:2263"), "{told}");
+    assert!(told.contains("0.3048006 m"), "{told}");
+    // in the map's unit, in a unit that is said, and on a map in metres there is no doubt
+    assert_eq!(note(new_york(), Some(0.3048)), None);
+    assert_eq!(note(new_york(), None), None);
+    assert_eq!(note(at("EPSG:25832", UTM[0], UTM[1]), Some(1.0)), None);
+}
+
+/// Where a file says another map of its anchor, the user's counts; a note shows both, and all that names the map says whose
+/// word it is.
+#[test]
+fn a_map_that_contradicts_the_files_is_told() {
+    let keys = |crs: &str| format!("[[model]]\npath = \"house.glb\"\ncrs = \"{crs}\"\n");
+    let of = |crs: &str| load(&keys(crs), &[("house.glb", anchored(vec![map_anchor(0.0)]))]).expect(crs);
+    let site = of("EPSG:25833");
+    let told = told(&site);
+    for part in [
+        "stands in EPSG:25832",
+        "says EPSG:25833",
+        "km from there",
+        "place from house.glb, IfcMapConversion with `crs`",
+    ] {
+        assert!(told.contains(part), "{part}: {told}");
+    }
+    assert!(told.contains("stands where its IfcMapConversion with `crs` says in EPSG:25833"), "{told}");
+    // zone 33 is 6° farther east
+    assert!((site.place.longitude_deg - LONG_LAT[0] - 6.0).abs() < 1e-6, "{:?}", site.place);
+    // two systems that have it at one point contradict nothing; neither does the same one
+    for one in ["EPSG:25832", "EPSG:32632"] {
+        let site = of(one);
+        assert!(!said(&site.notes).join("\n").contains("that is taken"), "{one}: {:?}", site.notes);
+    }
+}
+
+/// A model that nobody has placed beside one whose file says the place stands there by chance.
+#[test]
+fn a_model_without_a_place_beside_one_that_has_it_is_told() {
+    let models = "[[model]]\npath = \"town.glb\"\n[[model]]\npath = \"house.glb\"\n";
+    let town = || on_map("EPSG:25832", [UTM, [UTM[0] + 20.0, UTM[1]], [UTM[0], UTM[1] + 30.0]], 0.0);
+    let unplaced = |site: &str, town: Model, house: Model| {
+        let site = load(site, &[("town.glb", town), ("house.glb", house)]).expect(site);
+        said(&site.notes).into_iter().find(|note| note.contains("says no place"))
+    };
+    let note = unplaced(models, town(), drawing()).expect("a note");
+    let wanted = "house.glb says no place: its zero stands at the middle of town.glb, with its y to the north";
+    assert!(note.starts_with(wanted) && note.contains("`position`") && note.contains("`north`"), "{note}");
+    let house = || anchored(vec![map_anchor(0.0)]);
+    let note = unplaced(models, house(), Model { up: Up::Y, ..drawing() }).expect("a note");
+    assert!(note.contains("the zero of town.glb, with its −z to the north"), "{note}");
+    // its file says which way north is, and not where it is
+    let north = Anchor { said_by: "TrueNorth", at: AnchorPoint::Nowhere, north_rad: Some(0.5) };
+    let note = unplaced(models, town(), anchored(vec![north])).expect("a note");
+    assert!(note.contains("the middle of town.glb;") || note.contains("the middle of town.glb:"), "{note}");
+    // where somebody has chosen the place, or the model's, nothing is left to chance
+    assert_eq!(unplaced(&format!("{PLACE}{models}"), town(), drawing()), None);
+    assert_eq!(unplaced(&format!("{models}position = [0.0, 0.0, 0.0]\n"), town(), drawing()), None);
+    assert_eq!(unplaced(models, town(), house()), None);
 }
 
 /// A map without a name says no place, and its north is held against the other one all the same.

@@ -139,6 +139,14 @@ fn what_floats_and_what_sinks_is_told_with_how_much() {
     assert_eq!(standing(&all[3..4]), None);
     let sunk = standing(&all[..1]).unwrap();
     assert_eq!(sunk, "houses.glb has 1 building: 1 reaches below the terrain, as cellars do, by up to 2.00 m");
+    // what nobody sees is no cellar: its heights count from elsewhere
+    let buried = standing(&[all[0], [-30.0, -20.0, -20.0]]).unwrap();
+    for part in [
+        "2 buildings: 1 reaches below the terrain, as cellars do, by up to 2.00 m; 1 lies wholly below",
+        "18.00 m below it",
+    ] {
+        assert!(buried.contains(part) && buried.contains("`position`"), "{buried}");
+    }
     // those that touch are one, and what hangs over its foot does not float
     let joined = [[0.0, 5.0, -0.5], [5.0, 10.0, 6.0]];
     let one = standing(&joined).unwrap();
@@ -146,6 +154,37 @@ fn what_floats_and_what_sinks_is_told_with_how_much() {
     // nothing stands on what is no terrain
     let text = format!("{HEAD}terrain = false\n[[model]]\npath = \"houses.glb\"\n");
     assert!(!said(&read(&text, &all).unwrap().notes).iter().any(|note| note.contains("float")));
+}
+
+/// One building without a height of the ground, beside one that has it: each stands as its own heights say.
+#[test]
+fn each_part_says_for_itself_what_its_heights_count_from() {
+    let all = [[20.0, 30.0, 0.0], [-30.0, -20.0, -3.0]];
+    let mixed = |path: &Path, options: &ReadOptions| -> Result<Model, ModelError> {
+        let model = reader(&all)(path, options)?;
+        let from_ground = if path.ends_with("houses.glb") { vec![true, false] } else { Vec::new() };
+        Ok(Model { from_ground, ..model })
+    };
+    let low = |site: &Site, name: &str| {
+        let component = site.mesh.components.iter().find(|component| component.name == name).unwrap();
+        let faces = component.faces.clone();
+        let corners = faces.flat_map(|face| site.mesh.corners(face as usize));
+        corners.map(|corner| site.mesh.origin.z + f64::from(corner.z)).fold(f64::INFINITY, f64::min)
+    };
+    let without_terrain = HEAD.split("[[model]]").next().unwrap();
+    for (head, wanted, note) in [
+        (HEAD, [2.0, -3.0], "houses.glb says no height of the ground of 1 of its 2 parts: 1 stand on the terrain"),
+        (without_terrain, [0.0, -3.0], "houses.glb says no height of the ground of 1 of its 2 parts, which stand at"),
+    ] {
+        let folder = folder(&format!("{head}[[model]]\npath = \"houses.glb\"\n"));
+        for name in ["terrain.tif", "houses.glb"] {
+            std::fs::write(folder.path().join(name), "").unwrap();
+        }
+        let site = Site::load_with(folder.path(), &Overrides::default(), mixed).unwrap();
+        let found = ["block 0", "block 1"].map(|name| low(&site, name));
+        assert!(found.iter().zip(wanted).all(|(found, wanted)| (found - wanted).abs() < 1e-4), "{found:?}");
+        assert!(said(&site.notes).iter().any(|told| told.starts_with(note)), "{note}: {:?}", site.notes);
+    }
 }
 
 fn probing(mesh: Mesh, points: &[(DVec3, Option<DVec3>)]) -> Sunlight {

@@ -81,13 +81,15 @@ impl Footprints {
                 counted(replaced.partly as u64, "outline")
             )]);
         }
-        let stands_on_ground = self.bodies.is_empty() && outlines.iter().all(|outline| outline.is_at_zero());
         let mut at = 0;
         outlines.retain(|_| {
             at += 1;
             !replaced.whole.contains(&(at - 1))
         });
         let mut parts = std::mem::take(&mut self.bodies);
+        // what has a height of its own says nothing of the others
+        let of_outlines = outlines.iter().map(FootprintOutline::is_at_zero);
+        let from_ground: Vec<bool> = parts.iter().map(|_| false).chain(of_outlines).collect();
         parts.extend(outlines.iter().map(|outline| outline.part(self.layer.as_deref())));
         if parts.is_empty() {
             let left_out = self.tally.into_left_out();
@@ -101,7 +103,7 @@ impl Footprints {
             up_is_said: true,
             unit_m: Some(1.0),
             coordinates,
-            stands_on_ground,
+            from_ground: if from_ground.contains(&true) { from_ground } else { Vec::new() },
             left_out: self.tally.into_left_out(),
             notes: self.notes,
             ..Model::default()

@@ -29,6 +29,8 @@ pub(super) struct BuiltScene {
     pub parts: Vec<Part>,
     /// The kind of each part, if one of them is not a building.
     pub kinds: Vec<PartKind>,
+    /// Of each part whether its heights are measured from the ground, if those of one are.
+    pub from_ground: Vec<bool>,
     /// The see-through materials, each name once.
     pub see_through: Vec<SeeThrough>,
 }
@@ -101,7 +103,9 @@ pub(super) fn build(
                     Some(ours) => since_written(ours, group, &material, &node),
                     None => aliases(names, document.mesh_name(place.mesh).into_iter().chain([&*material])),
                 };
-                built.add(part, own.map(|own| own.kind).unwrap_or_default(), is_faded.then_some(&material))?;
+                let (kind, is_from_ground) = own.map(|own| (own.kind, own.is_from_ground)).unwrap_or_default();
+                built.from_ground.push(is_from_ground);
+                built.add(part, kind, is_faded.then_some(&material))?;
             }
         }
     }
@@ -113,6 +117,7 @@ pub(super) fn build(
 struct SceneParts {
     parts: Vec<Part>,
     kinds: Vec<PartKind>,
+    from_ground: Vec<bool>,
     see_through: BTreeMap<String, Vec<usize>>,
 }
 
@@ -132,7 +137,9 @@ impl SceneParts {
         let see_through = see_through.map(|(material, parts)| SeeThrough { material, parts }).collect();
         let are_buildings = self.kinds.iter().all(|kind| *kind == PartKind::Building);
         let kinds = if are_buildings { Vec::new() } else { self.kinds };
-        BuiltScene { parts: self.parts, kinds, see_through }
+        let is_one_from_ground = self.from_ground.contains(&true);
+        let from_ground = if is_one_from_ground { self.from_ground } else { Vec::new() };
+        BuiltScene { parts: self.parts, kinds, from_ground, see_through }
     }
 }
 

@@ -107,7 +107,7 @@ pub(super) fn read_bytes(
     let meshes: BTreeSet<usize> = standing.placed.iter().map(|place| place.mesh).collect();
     meshes.into_iter().try_for_each(|mesh| buffers.unpack(mesh))?;
     let features = features::Features::of(&document, &buffers, context.batch);
-    let build::BuiltScene { parts, kinds, see_through } =
+    let build::BuiltScene { parts, kinds, from_ground, see_through } =
         build::build(&document, &buffers, &features, &standing.placed, options.told_step)?;
     if parts.is_empty() {
         let scene = if is_asked { "that scene" } else { "its default scene" };
@@ -119,10 +119,9 @@ pub(super) fn read_bytes(
             .push(message!["has a damaged table of names, so that its features are not told apart"; "export it again"]);
     }
     let scene = standing.scene.and_then(|scene| document.scenes.get(scene));
-    let own::OwnScene { anchor, unit_m, up_is_said, stands_on_ground } =
-        scene.map(|scene| scene.own.clone()).unwrap_or_default();
+    let own::OwnScene { anchor, unit_m, up_is_said } = scene.map(|scene| scene.own.clone()).unwrap_or_default();
     let anchors = anchor.into_iter().collect();
     // glTF is in metres and y up, and many a program exports something else: where we have not written it ourselves nothing
     // is said, so that it can be doubted
-    Ok(Model { parts, kinds, notes, see_through, anchors, unit_m, up_is_said, stands_on_ground, ..Model::default() })
+    Ok(Model { parts, kinds, notes, see_through, anchors, unit_m, up_is_said, from_ground, ..Model::default() })
 }

@@ -8,11 +8,13 @@ use serde_json::Value;
 const MOST_ALIASES: usize = 64;
 const LONGEST: usize = 1000;
 
-/// All names of a component beside its own, where they are said, and its kind.
+/// All names of a component beside its own, where they are said, its kind, and whether its heights are measured from the
+/// ground.
 #[derive(Debug, Default)]
 pub(super) struct OwnExtras {
     pub aliases: Option<Vec<String>>,
     pub kind: PartKind,
+    pub is_from_ground: bool,
 }
 
 /// Of a scene: where its zero stands, and what was said of it before it was glTF.
@@ -23,7 +25,6 @@ pub(super) struct OwnScene {
     pub unit_m: Option<f64>,
     /// Whether somebody had said the axis.
     pub up_is_said: bool,
-    pub stands_on_ground: bool,
 }
 
 /// Reads a node's; what others write there is theirs.
@@ -34,6 +35,7 @@ pub(super) fn read<'de, D: Deserializer<'de>>(from: D) -> Result<OwnExtras, D::E
     Ok(OwnExtras {
         aliases: ours.get("aliases").and_then(Value::as_array).map(|list| aliases(list)),
         kind: PartKind::ALL.into_iter().find(|known| Some(known.word()) == kind).unwrap_or_default(),
+        is_from_ground: ours["from_ground"] == true,
     })
 }
 
@@ -51,7 +53,6 @@ pub(super) fn read_scene<'de, D: Deserializer<'de>>(from: D) -> Result<OwnScene,
         // glTF has no other
         unit_m: ours["unit_m"].as_f64().filter(|unit| *unit == 1.0),
         up_is_said: ours["up"] == "y",
-        stands_on_ground: ours["stands_on_ground"] == true,
     })
 }
 

@@ -30,6 +30,8 @@ const SAME: f64 = 0.01;
 #[derive(Default)]
 pub(super) struct IfcPlaces {
     pub anchors: Vec<Anchor>,
+    /// The unit of a map's point, metres, where it is not said.
+    pub assumed_map_unit_m: Option<f64>,
     pub notes: Vec<Message>,
 }
 
@@ -76,7 +78,11 @@ impl IfcPlaces {
             self.anchors.push(Anchor { said_by, at, north_rad: Some(0.0) });
             return;
         }
-        let map_unit_m = map.map_unit_scale.unwrap_or_else(|| self.unsaid_map_unit_m(map, said_by, unit_m));
+        let map_unit_m = map.map_unit_scale.unwrap_or_else(|| {
+            let assumed_m = self.unsaid_map_unit_m(map, said_by, unit_m);
+            self.assumed_map_unit_m = Some(assumed_m);
+            assumed_m
+        });
         let crs = map.crs_name.clone().map(|name| name.trim().to_owned()).filter(|name| !name.is_empty());
         let at = AnchorPoint::Map {
             crs: crs.or_else(|| details.well_known_text.clone()).unwrap_or_default(),

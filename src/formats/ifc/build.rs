@@ -88,6 +88,7 @@ fn read(file: IfcText, options: &ReadOptions) -> Result<Model, ModelFault> {
         unit_m,
         coordinates: Coordinates::Local,
         anchors: places.anchors,
+        assumed_map_unit_m: places.assumed_map_unit_m,
         left_out,
         notes,
         see_through: parts.see_through,

@@ -114,12 +114,14 @@ fn a_map_conversion_says_place_north_and_scale() {
     // +x points 30° south of the map's east, so its north is 30° anticlockwise from +y
     north(&model.anchors[0], Some(-30.0));
     assert!(!notes(&model).contains("Scale"));
+    assert_eq!(model.assumed_map_unit_m, None);
     // one that corrects for the map's own scale, too
     let scaled = on_map(&turned.replace("0.001)", "0.0009996)"), UTM);
     is_on_map(&scaled.anchors[0], "EPSG:25832", [458870.5, 5438230.25, 115.0], 0.9996);
     // all in the project's unit, without a name
     let own = on_map("IFCMAPCONVERSION(#10,#950,15000.,0.,0.,0.,1.,$)", "'',$,$,$,$,$,$");
     is_on_map(&own.anchors[0], "", [15.0, 0.0, 0.0], 1.0);
+    assert_eq!(own.assumed_map_unit_m, Some(0.001));
     north(&own.anchors[0], Some(90.0));
 }
 
