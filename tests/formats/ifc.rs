@@ -157,6 +157,11 @@ fn layers_that_are_off_are_left_out_and_told() {
     assert!(model.parts.iter().all(|part| part.name != "IfcWindow/Glass"));
     assert_eq!(left_out(&model, "layer \"Off\"").map(|left| left.count), Some(1));
     assert!(left_out(&read(&off("#405")), "layer \"Off\"").is_none());
+    // where everything is off, the error says so
+    let all = house("").replace("(#405),$,.T.,.F.,.F.,());", "(#105,#205,#306,#405),$,.F.,.F.,.F.,());");
+    let error = read_as("house.ifc", all.as_bytes()).expect_err("nothing stands there");
+    let told = ["has no triangles", "layer \"Structure\": switched off or frozen in the file", "1 IfcSpace: not built"];
+    assert!(told.iter().all(|told| error.contains(told)), "{error}");
     let unknown = house("").replace("$,.T.,.F.,.F.,());", "$,.U.,.U.,.F.,());");
     assert_eq!(read(&unknown).parts.len(), 5);
 }

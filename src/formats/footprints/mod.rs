@@ -7,7 +7,7 @@
 //! replaced by their parts), `extrude` (outlines → blocks).
 
 use super::face_cutter::FaceCutter;
-use super::left_out::{LeftOutTally, counted};
+use super::left_out::{LeftOutTally, counted, listed};
 use super::{Coordinates, MAX_TRIANGLES, Model, ModelFault, Up};
 use crate::mesh::Part;
 use crate::message::{Field, Message, Piece, few, message, setting};
@@ -90,9 +90,7 @@ impl Footprints {
         let mut parts = std::mem::take(&mut self.bodies);
         parts.extend(outlines.iter().map(|outline| outline.part(self.layer.as_deref())));
         if parts.is_empty() {
-            let left_out = self.tally.into_left_out();
-            let left_out = left_out.iter().map(|one| format!("{} {}: {}", one.count, one.what, one.why)).collect();
-            let what = format!("has no footprints of buildings ({})", crate::message::few(left_out));
+            let what = format!("has no footprints of buildings ({})", listed(&self.tally.into_left_out()));
             return Err(message![what; "export a layer of polygons with heights"].into());
         }
         Ok(Model {
