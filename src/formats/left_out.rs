@@ -45,7 +45,7 @@ impl LeftOutTally {
 }
 
 /// Words of Gnomon's own for many things, and for one; a file's own terms are as the file has them.
-const ONE_OF_MANY: [(&str, &str); 21] = [
+const ONE_OF_MANY: [(&str, &str); 22] = [
     ("contents", "content"),
     ("entities", "entity"),
     ("faces", "face"),
@@ -66,6 +66,7 @@ const ONE_OF_MANY: [(&str, &str); 21] = [
     ("shapes", "shape"),
     ("surfaces", "surface"),
     ("tiles", "tile"),
+    ("tilesets", "tileset"),
     ("triangles", "triangle"),
 ];
 

@@ -261,7 +261,7 @@ impl fmt::Display for ModelFault {
         match self {
             ModelFault::Gltf(fault) => fault.fmt(f),
             ModelFault::Unusable(message) => message.fmt(f),
-            ModelFault::GivenUp => f.write_str("was not read to its end, as somebody ended that"),
+            ModelFault::GivenUp => f.write_str("was not read to its end: the reading was cancelled"),
         }
     }
 }
