@@ -221,7 +221,7 @@ fn a_mapped_mirror_is_not_inside_out() {
 fn other_steps_and_empty_files_are_refused() {
     let cad = HEAD.replace("IFC4", "AUTOMOTIVE_DESIGN");
     let error = read_as("part.step", cad.as_bytes()).expect_err("no IFC");
-    assert!(error.contains("is of no format that Gnomon knows"), "{error}");
+    assert!(error.contains("is a STEP or IGES file, which Gnomon does not read"), "{error}");
     let empty = format!("{HEAD}ENDSEC;\nEND-ISO-10303-21;\n");
     let error = read_as("house.ifc", empty.as_bytes()).expect_err("no records");
     assert!(error.contains("has no records that can be read"), "{error}");
