@@ -29,6 +29,8 @@ pub(super) struct FaceCutter {
 pub(super) enum Uncut {
     /// Fewer than three corners, or all of them on a line.
     NoArea,
+    /// It encloses as much to its left as to its right, though its corners are on no line.
+    Crossing,
     /// A coordinate is infinite or NaN.
     NoPoint,
     /// More corners than a face may have.
@@ -42,6 +44,7 @@ impl Uncut {
     pub(super) fn why(self) -> &'static str {
         match self {
             Uncut::NoArea => "no area",
+            Uncut::Crossing => "crosses itself, or runs back on itself",
             Uncut::NoPoint => "a coordinate is no number",
             Uncut::TooLarge => "more than 400,000 corners",
             Uncut::LargeAndCrossing => "more than 20,000 corners, and rings that cross or touch",
@@ -81,7 +84,7 @@ impl FaceCutter {
         }
         let normal = normal(outer);
         if outer.len() < 3 || !(normal.is_finite() && normal.length_squared() > 0.0) {
-            return Err(Uncut::NoArea);
+            return Err(without_area(outer));
         }
         self.triangles.clear();
         let is_exact = match *points {
@@ -155,7 +158,7 @@ impl FaceCutter {
             self.triangles.push(if area < 0.0 { [a, c, b] } else { [a, b, c] });
         }
         if self.triangles.is_empty() || !covered.is_finite() {
-            return Err(Uncut::NoArea);
+            return Err(without_area(points.get(..ends.first().copied().unwrap_or(0)).unwrap_or_default()));
         }
         let enclosed = self.enclosed(ends);
         Ok((covered - enclosed).abs() <= 1e-3 * enclosed)
@@ -205,6 +208,21 @@ fn convex([a, b, c, d]: [DVec3; 4]) -> bool {
     let half = (b - a).cross(c - a);
     let other = (c - a).cross(d - a);
     half.dot(other) > 0.0 && (c - b).cross(d - b).dot((d - b).cross(a - b)) > 0.0
+}
+
+/// Why a ring encloses nothing: all its corners are on a line, or what it encloses cancels.
+fn without_area(ring: &[DVec3]) -> Uncut {
+    const NARROW: f64 = 1e-9;
+    let Some(&first) = ring.first() else { return Uncut::NoArea };
+    let from_first = || ring.iter().map(|&corner| corner - first);
+    let far = from_first().fold(
+        DVec3::ZERO,
+        |far, corner| {
+            if corner.length_squared() > far.length_squared() { corner } else { far }
+        },
+    );
+    let is_off = |corner: DVec3| far.cross(corner).length() > NARROW * far.length_squared();
+    if from_first().any(is_off) { Uncut::Crossing } else { Uncut::NoArea }
 }
 
 /// The normal of a ring by Newell's method, as long as twice its area.

@@ -24,14 +24,10 @@ pub trait Format: Sync {
     /// What is wrong with the file, with a hint.
     fn read(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelFault>;
 
-    /// Whether the reader is others' code, which runs in a process of its own with limits.
-    fn is_foreign(&self) -> bool {
+    /// Whether reading a file takes others' code, which runs in a process of its own with limits, and whose models are
+    /// kept.
+    fn is_foreign(&self, _path: &Path, _options: &ReadOptions) -> bool {
         false
-    }
-
-    /// Whether what was read is kept, as reading the file takes longer than reading that back.
-    fn is_kept(&self) -> bool {
-        self.is_foreign()
     }
 
     /// Which keys of a model it uses, of those that not all formats do.

@@ -1,6 +1,7 @@
 //! Counts what a reader leaves out while it reads, and makes names usable.
 
 use super::{LeftOut, composed};
+use crate::message::few;
 use std::collections::BTreeMap;
 
 /// The longest name of a part or of a kind, bytes.
@@ -44,7 +45,7 @@ impl LeftOutTally {
 }
 
 /// Words of Gnomon's own for many things, and for one; a file's own terms are as the file has them.
-const ONE_OF_MANY: [(&str, &str); 21] = [
+const ONE_OF_MANY: [(&str, &str); 22] = [
     ("contents", "content"),
     ("entities", "entity"),
     ("faces", "face"),
@@ -65,6 +66,7 @@ const ONE_OF_MANY: [(&str, &str); 21] = [
     ("shapes", "shape"),
     ("surfaces", "surface"),
     ("tiles", "tile"),
+    ("tilesets", "tileset"),
     ("triangles", "triangle"),
 ];
 
@@ -76,6 +78,11 @@ impl LeftOut {
         let one = ONE_OF_MANY.iter().find_map(|(many, one)| Some(format!("1 {one}{}", rest(many)?)));
         one.filter(|_| self.count == 1).unwrap_or_else(|| format!("{} {what}", self.count))
     }
+}
+
+/// All that was left out on one line, as an error has it.
+pub(super) fn listed(left_out: &[LeftOut]) -> String {
+    few(left_out.iter().map(|one| format!("{}: {}", one.counted(), one.why)).collect())
 }
 
 /// How many there are of a thing: `1 footprint`, `2 footprints`.

@@ -1,6 +1,7 @@
 //! What every reader returns: parts in the file's own coordinates, what these coordinates mean, and what was left out.
 
 use super::exact::{self, option as exact_option};
+use super::left_out::listed;
 use super::{MAX_COMPONENTS, MAX_TRIANGLES, gltf};
 use crate::mesh::Part;
 use crate::message::{Message, Worded, message, plain_display};
@@ -263,7 +264,7 @@ impl fmt::Display for ModelFault {
         match self {
             ModelFault::Gltf(fault) => fault.fmt(f),
             ModelFault::Unusable(message) => message.fmt(f),
-            ModelFault::GivenUp => f.write_str("was not read to its end, as somebody ended that"),
+            ModelFault::GivenUp => f.write_str("was not read to its end: the reading was cancelled"),
         }
     }
 }
@@ -317,10 +318,12 @@ impl Model {
     pub(super) fn checked(self) -> Result<Self, ModelFault> {
         let triangles = self.triangles();
         if triangles == 0 {
-            return Err(message![
-                "has no triangles, so nothing casts a shadow"; "export what stands there as a mesh or as solids"
-            ]
-            .into());
+            let lost = match listed(&self.left_out) {
+                lost if lost.is_empty() => lost,
+                lost => format!(" ({lost})"),
+            };
+            let what = format!("has no triangles, so nothing casts a shadow{lost}");
+            return Err(message![what; "export what stands there as a mesh or as solids"].into());
         }
         if triangles > MAX_TRIANGLES {
             let what = format!("has {triangles} triangles, and a model may have {MAX_TRIANGLES}");

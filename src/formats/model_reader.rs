@@ -47,13 +47,14 @@ impl ModelReader {
 
     fn read_within(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
         let format = format_of(path)?;
-        let cache = self.cache.as_ref().filter(|_| format.is_kept());
+        let is_foreign = format.is_foreign(path, options);
+        let cache = self.cache.as_ref().filter(|_| is_foreign);
         let entry =
             cache.map(|cache| cache.entry(format, path, options)).transpose().map_err(ModelFault::unreadable)?;
         if let Some(model) = entry.as_ref().and_then(|entry| entry.read()) {
             return Ok(model);
         }
-        let mut model = match self.program.as_deref().filter(|_| format.is_foreign()) {
+        let mut model = match self.program.as_deref().filter(|_| is_foreign) {
             Some(program) => child::read(program, self.limits, &self.given_up, path, options)?,
             None => read_as(format, path, options)?,
         };

@@ -1,7 +1,7 @@
 //! STL, ASCII or binary → one part per solid.
 
 use super::face_cutter::FaceCutter;
-use super::left_out::{LeftOutTally, label};
+use super::left_out::{LeftOutTally, counted, label};
 use super::source::{TextLines, as_ascii, keyword, number, stem, text, words, wrong_line};
 use super::vertices::note_floats;
 use super::whole::whole_file;
@@ -39,7 +39,11 @@ impl Format for Stl {
     fn read(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
         let bytes = whole_file(path)?;
         let mut model = match triangles_of(&bytes)? {
-            Some(triangles) => of_numbers(triangles, path, options),
+            Some((triangles, behind)) => {
+                let mut model = of_numbers(triangles, path, options);
+                model.notes.extend(surplus(triangles.len(), behind));
+                model
+            }
             None => of_text(&as_ascii(bytes), path)?,
         };
         model.up = Up::Z;
@@ -47,8 +51,20 @@ impl Format for Stl {
     }
 }
 
-/// The triangles of a binary file; none where it is text. Binary files may begin with "solid", too, so the size decides.
-fn triangles_of(bytes: &[u8]) -> Result<Option<&[[u8; TRIANGLE]]>, Message> {
+/// That a file holds more triangles than it promises, where it does: an exporter counts wrongly, or two files became one.
+fn surplus(promised: usize, behind: usize) -> Option<Message> {
+    (behind >= TRIANGLE).then(|| {
+        let what = format!(
+            "promises {}, which are read, and has {behind} bytes behind them, room for {} more",
+            counted(promised as u64, "triangle"),
+            behind / TRIANGLE
+        );
+        message![what; "export it again if something is missing"]
+    })
+}
+
+/// The triangles of a binary file, as many as it promises, and how many bytes follow; none where it is text. Binary files may begin with "solid", too, so the size decides.
+fn triangles_of(bytes: &[u8]) -> Result<Option<(&[[u8; TRIANGLE]], usize)>, Message> {
     let is_text = words(bytes.get(..200.min(bytes.len())).unwrap_or_default())
         .next()
         .is_some_and(|word| as_ascii(word.to_vec()).eq_ignore_ascii_case(b"solid"))
@@ -60,12 +76,12 @@ fn triangles_of(bytes: &[u8]) -> Result<Option<&[[u8; TRIANGLE]]>, Message> {
     };
     let (triangles, rest) = body.as_chunks();
     if triangles.len() == count && rest.is_empty() {
-        return Ok(Some(triangles));
+        return Ok(Some((triangles, 0)));
     }
     if is_text {
         return Ok(None);
     }
-    triangles.get(..count).map(Some).ok_or_else(|| {
+    triangles.get(..count).map(|read| Some((read, body.len() - TRIANGLE * count))).ok_or_else(|| {
         let what = format!("promises {count} triangles, and holds {}", triangles.len());
         message![what; "the file is cut off or damaged: copy or export it again"]
     })

@@ -24,6 +24,12 @@ pub struct WrittenSite {
     pub text: String,
 }
 
+/// The largest site file, bytes. Larger ones are models or something else.
+const MOST_BYTES: u64 = 16_000_000;
+
+/// Where the formats stand.
+const FORMATS_HINT: &str = "docs/formats.md lists all models that are read, and how to export them";
+
 /// A site file's bytes as text.
 fn text_of(file: &str, bytes: Vec<u8>) -> Result<String, SiteError> {
     // in UTF-16 every other byte of what is mostly ASCII is 0
@@ -43,6 +49,19 @@ fn text_of(file: &str, bytes: Vec<u8>) -> Result<String, SiteError> {
         }
         _ => Err(SiteError::Unreadable { path: file.to_owned(), why: "it is not text".to_owned() }),
     }
+}
+
+/// Whether a file may be meant as a site file: it is called so, is TOML, is a text in an encoding that is told, or has a
+/// table of one, and then what is wrong in it is told by its line.
+fn may_be_site(path: &Path, bytes: &[u8]) -> bool {
+    let is_called_so = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
+    let is_wide = bytes.starts_with(&[0xFF, 0xFE]) || bytes.starts_with(&[0xFE, 0xFF]);
+    let has_table = |line: &[u8]| [&b"[place]"[..], b"[[model]]", b"[study]"].contains(&line.trim_ascii());
+    let is_toml = || {
+        let text = std::str::from_utf8(bytes).ok()?;
+        toml::from_str::<toml::Table>(text.strip_prefix('\u{feff}').unwrap_or(text)).ok()
+    };
+    is_called_so || is_wide || bytes.split(|byte| *byte == b'\n').any(has_table) || is_toml().is_some()
 }
 
 /// What is wrong with several paths.
@@ -146,8 +165,17 @@ impl WrittenSite {
 
     fn read_file(path: &Path) -> Result<WrittenSite, SiteError> {
         let file = path.display().to_string();
-        let bytes = std::fs::read(path)
-            .map_err(|error| SiteError::Unreadable { path: file.clone(), why: error.to_string() })?;
+        let unreadable = |error: std::io::Error| SiteError::Unreadable { path: file.clone(), why: error.to_string() };
+        let length = std::fs::metadata(path).map_err(unreadable)?.len();
+        if length > MOST_BYTES {
+            let what = format!("{file} has {length} bytes, and a site file may have 16 MB");
+            return Err(SiteError::UnknownFormat(message![what; FORMATS_HINT]));
+        }
+        let bytes = std::fs::read(path).map_err(unreadable)?;
+        if !may_be_site(path, &bytes) {
+            let what = format!("{file} is neither a site file nor a model that Gnomon reads");
+            return Err(SiteError::UnknownFormat(message![what; FORMATS_HINT]));
+        }
         let text = text_of(&file, bytes)?;
         Ok(WrittenSite {
             site: SiteFile::parse(&file, &text)?,

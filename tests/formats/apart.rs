@@ -1,7 +1,7 @@
 //! What is read in a process of its own: it gives the same model, and whatever it does is one clear error.
 
 use crate::shared::program::site;
-use gnomon::formats::{self, ModelReader, ReadOptions};
+use gnomon::formats::{self, ModelReader, ReadOptions, SceneName};
 use std::path::PathBuf;
 
 /// The program itself.
@@ -38,6 +38,35 @@ fn program_that_is_not_there_is_told() {
     let nowhere = ModelReader { program: Some(folder.path().join("no-program")), ..ModelReader::default() };
     let told = nowhere.read_apart(&folder.path().join("tower.glb"), &ReadOptions::default()).unwrap_err().to_string();
     assert!(told.contains("no process can be started"), "{told}");
+}
+
+/// What takes others' code is read by the program that is named, and all else is not.
+#[test]
+fn readers_of_others_run_apart() {
+    let folder = site();
+    let write = |name: &str, bytes: &[u8]| std::fs::write(folder.path().join(name), bytes).unwrap();
+    let (_, draco) = super::compressed::draco();
+    write("draco.gltf", draco.to_string().as_bytes());
+    write("hill.tif", b"II*\0");
+    write("tileset.json", br#"{"geometricError":1,"root":{}}"#);
+    write("house.ifc", b"ISO-10303-21;");
+    write("points.las", b"LASF");
+    let nowhere = ModelReader { program: Some(folder.path().join("no-program")), ..ModelReader::default() };
+    let is_apart = |name: &str, options: &ReadOptions| {
+        let read = nowhere.read(&folder.path().join(name), options);
+        read.is_err_and(|error| error.to_string().contains("no process can be started"))
+    };
+    let options = ReadOptions::default();
+    for name in ["draco.gltf", "hill.tif", "tileset.json", "house.ifc", "points.las"] {
+        assert!(is_apart(name, &options), "{name}");
+    }
+    assert!(!is_apart("tower.glb", &options));
+    // the face knows by which key a scene was asked for that is not there
+    let scene = ReadOptions { scene: Some(SceneName::Number(9)), ..ReadOptions::default() };
+    assert!(!is_apart("draco.gltf", &scene));
+    let file = folder.path().join("draco.gltf");
+    let (here, there) = (formats::read(&file, &options).unwrap(), apart().read(&file, &options).unwrap());
+    assert_eq!(format!("{here:?}"), format!("{there:?}"));
 }
 
 /// Programs that do what a bad reader may do.

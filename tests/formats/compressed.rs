@@ -155,7 +155,7 @@ fn damaged_meshopt_is_refused() {
 }
 
 /// Draco's sequential method (specification, chapters 3 to 5): plain indices, and positions as they are.
-fn draco() -> (Vec<u8>, Value) {
+pub(super) fn draco() -> (Vec<u8>, Value) {
     let mut bytes = b"DRACO".to_vec();
     // version 2.2, a mesh, sequential, no flags
     bytes.extend([2, 2, 1, 0, 0, 0]);

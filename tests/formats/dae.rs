@@ -98,7 +98,14 @@ fn units_axes_and_matrices_are_the_files_own() {
     assert_is_building(&read_bytes("house.dae", document("", "<up_axis>X_UP</up_axis>", &x_up, "").as_bytes()));
     let model = read_bytes("house.dae", document("", "", &faces_in(1.0, Up::Y), "").as_bytes());
     assert_is_building(&model);
-    assert!(!model.up_is_said && model.unit_m.is_none());
+    assert!(!model.up_is_said && model.unit_m.is_none() && model.notes.is_empty());
+    // a unit without a length is told
+    for unit in ["<unit name=\"inch\"/>", "<unit meter=\"0\"/>"] {
+        let model = read_bytes("house.dae", document(unit, up, &faces_in(1.0, Up::Z), "").as_bytes());
+        assert_is_building(&model);
+        let told = model.notes[0].to_string();
+        assert!(model.unit_m.is_none() && told.contains(unit) && told.contains("taken for metres"), "{told}");
+    }
 }
 
 #[test]

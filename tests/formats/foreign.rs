@@ -2,6 +2,7 @@
 
 use super::building::*;
 use gnomon::formats::FORMATS;
+use gnomon::site::{Overrides, WrittenSite};
 
 #[test]
 fn files_of_other_programs_say_how_to_export() {
@@ -29,6 +30,18 @@ fn files_of_other_programs_say_how_to_export() {
         ("house.xml", b"<ex:iso_10303_28 xmlns:ex=\"urn:iso\">", &["ifcXML"]),
         ("house.ifcx", b"", &["IFC 5", "as IFC 4 or 4.3"]),
         ("house.json", b"{\"header\":{\"ifcxVersion\":\"ifcx_alpha\"},\"data\":[]}", &["IFC 5 (ifcx)"]),
+        ("house.kml", b"<?xml version=\"1.0\"?><kml xmlns=\"http://www.opengis.net/kml/2.2\">", &["KML", "QGIS"]),
+        ("house.kmz", b"PK\x03\x04", &["KMZ", ".dae"]),
+        ("town.xml", b"<osm version=\"0.6\">", &["OpenStreetMap", "overpass-turbo.eu"]),
+        ("town.osm.pbf", b"\0\0\0\x0e", &["OpenStreetMap", "ogr2ogr"]),
+        ("town.db", b"SQLite format 3\0", &["GeoPackage", "FlatGeobuf"]),
+        ("part.stp", b"ISO-10303-21;", &["STEP", "FreeCAD"]),
+        ("part.FCStd", b"PK\x03\x04", &["FreeCAD file", "File > Export"]),
+        ("ground.xyz", b"1 2 3\n", &["points", "as LAS"]),
+        ("scan.e57", b"ASTM-E57", &["E57", "CloudCompare"]),
+        ("house.xml", b"<gbXML version=\"6.01\">", &["gbXML", "IFC"]),
+        ("plan.pdf", b"%PDF-1.7", &["PDF", "IFC"]),
+        ("obj.zip", b"PK\x03\x04", &["zip archive", "unpack it"]),
     ] {
         assert_refused(name, head, words);
         assert_refused(name, head, &["which Gnomon does not read"]);
@@ -67,4 +80,26 @@ fn files_that_go_with_a_model_name_it() {
     assert!(hint("roads.shx").contains("open roads.SHP, which lies beside it"), "{}", hint("roads.shx"));
     std::fs::write(folder.path().join("dem.prj"), "EPSG:25832").unwrap();
     assert!(hint("dem.prj").contains("open dem.asc"), "{}", hint("dem.prj"));
+}
+
+/// A file that is neither a model nor a site is told as that, and one that is meant as a site by what is wrong in it.
+#[test]
+fn what_is_neither_site_nor_model_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let told = |name: &str, bytes: &[u8]| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, bytes).unwrap();
+        WrittenSite::read(&path, &Overrides::default()).unwrap_err().to_string()
+    };
+    for (name, bytes) in [("list.txt", &b"three walls\n"[..]), ("house", b"\x01\x02\0\xFF"), ("a.doc", b"caf\xE9")] {
+        let error = told(name, bytes);
+        assert!(error.contains("is neither a site file nor a model") && error.contains("docs/formats.md"), "{error}");
+    }
+    for name in ["site.toml", "site.txt"] {
+        let error = told(name, b"[place]\nlatitude 48\n");
+        assert!(!error.contains("neither") && error.contains("latitude 48"), "{error}");
+    }
+    let error = told("large.toml", &vec![b'#'; 16_000_001]);
+    assert!(error.contains("16000001 bytes") && error.contains("16 MB"), "{error}");
+    assert!(told("kml.kml", b"<kml>").contains("KML"));
 }

@@ -157,6 +157,11 @@ fn layers_that_are_off_are_left_out_and_told() {
     assert!(model.parts.iter().all(|part| part.name != "IfcWindow/Glass"));
     assert_eq!(left_out(&model, "layer \"Off\"").map(|left| left.count), Some(1));
     assert!(left_out(&read(&off("#405")), "layer \"Off\"").is_none());
+    // where everything is off, the error says so
+    let all = house("").replace("(#405),$,.T.,.F.,.F.,());", "(#105,#205,#306,#405),$,.F.,.F.,.F.,());");
+    let error = read_as("house.ifc", all.as_bytes()).expect_err("nothing stands there");
+    let told = ["has no triangles", "layer \"Structure\": switched off or frozen in the file", "1 IfcSpace: not built"];
+    assert!(told.iter().all(|told| error.contains(told)), "{error}");
     let unknown = house("").replace("$,.T.,.F.,.F.,());", "$,.U.,.U.,.F.,());");
     assert_eq!(read(&unknown).parts.len(), 5);
 }
@@ -216,7 +221,7 @@ fn a_mapped_mirror_is_not_inside_out() {
 fn other_steps_and_empty_files_are_refused() {
     let cad = HEAD.replace("IFC4", "AUTOMOTIVE_DESIGN");
     let error = read_as("part.step", cad.as_bytes()).expect_err("no IFC");
-    assert!(error.contains("is of no format that Gnomon knows"), "{error}");
+    assert!(error.contains("is a STEP or IGES file, which Gnomon does not read"), "{error}");
     let empty = format!("{HEAD}ENDSEC;\nEND-ISO-10303-21;\n");
     let error = read_as("house.ifc", empty.as_bytes()).expect_err("no records");
     assert!(error.contains("has no records that can be read"), "{error}");

@@ -65,6 +65,14 @@ fn what_is_cut_off_is_told() {
     let refused = |bytes: &[u8], words: &[&str]| assert_refused("m.stl", bytes, words);
     refused(&whole[..whole.len() - 1], &["promises 20 triangles, and holds 19", "cut off"]);
     refused(b"", &["no STL"]);
+    // one that promises fewer than it holds
+    let mut fewer = whole.clone();
+    fewer[80..84].copy_from_slice(&1_u32.to_le_bytes());
+    let model = read_bytes("m.stl", &fewer);
+    assert_eq!(triangles(&model).count(), 1);
+    let told = model.notes[0].to_string();
+    assert!(told.contains("promises 1 triangle") && told.contains("950 bytes behind them, room for 19 more"), "{told}");
+    assert!(read_bytes("m.stl", &[&whole[..], &[0; 49]].concat()).notes.is_empty());
     let text = text(&["house"]);
     let facet = text.rfind("outer").unwrap();
     refused(&text.as_bytes()[..facet], &["is cut off in line"]);

@@ -6,7 +6,7 @@ use crate::formats::left_out::LeftOutTally;
 use crate::formats::vertices::VertexPicker;
 use crate::formats::{MAX_COMPONENTS, MAX_TRIANGLES, Model, SeeThrough, Up};
 use crate::mesh::Part;
-use crate::message::{Message, message};
+use crate::message::{Message, message, setting};
 use glam::{DAffine3, DMat3, DVec3};
 use std::collections::BTreeMap;
 
@@ -22,6 +22,12 @@ pub(super) fn model_of(mut document: DaeDocument) -> Result<Model, Message> {
         None => (!document.scenes.is_empty()).then_some(0),
     };
     let mut model = Model { unit_m: document.unit_m, up_is_said: document.up.is_some(), ..Model::default() };
+    if let Some(unit) = &document.odd_unit {
+        let what = format!("says {unit}, which is no length in metres, so that its numbers are taken for metres");
+        model.notes.push(
+            message![what; "write ", setting("[[model]]", "scale", "`scale` under [[model]]"), " if they are not"],
+        );
+    }
     let upright = match document.up {
         Some(DaeUp::Z) => {
             model.up = Up::Z;

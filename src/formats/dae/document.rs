@@ -60,6 +60,8 @@ pub(super) struct GeometryInstance {
 /// What a file says.
 pub(super) struct DaeDocument {
     pub unit_m: Option<f64>,
+    /// What the file says of its unit, where that is no length.
+    pub odd_unit: Option<String>,
     pub up: Option<DaeUp>,
     pub geometries: FxHashMap<String, DaeGeometry>,
     /// The nodes of all libraries and scenes.

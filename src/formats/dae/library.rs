@@ -13,6 +13,7 @@ impl DaeDocument {
     pub(super) fn read(source: &str) -> Result<Self, Message> {
         let mut document = Self {
             unit_m: None,
+            odd_unit: None,
             up: None,
             geometries: FxHashMap::default(),
             nodes: Vec::new(),
@@ -61,6 +62,9 @@ impl DaeDocument {
             "unit" => {
                 let metres = attribute(element, "meter").and_then(|text| text.trim().parse::<f64>().ok());
                 self.unit_m = metres.filter(|metres| metres.is_finite() && *metres > 0.0);
+                let said = |key: &str| attribute(element, key).map(|text| format!(" {key}=\"{}\"", label(&text)));
+                let unit = ["name", "meter"].into_iter().filter_map(said).collect::<String>();
+                self.odd_unit = self.unit_m.is_none().then(|| format!("<unit{unit}/>"));
                 xml.skip()
             }
             "up_axis" => {

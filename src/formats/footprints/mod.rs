@@ -7,7 +7,7 @@
 //! replaced by their parts), `extrude` (outlines → blocks).
 
 use super::face_cutter::FaceCutter;
-use super::left_out::{LeftOutTally, counted};
+use super::left_out::{LeftOutTally, counted, listed};
 use super::{Coordinates, MAX_TRIANGLES, Model, ModelFault, Up};
 use crate::mesh::Part;
 use crate::message::{Field, Message, Piece, few, message, setting};
@@ -92,9 +92,7 @@ impl Footprints {
         let from_ground: Vec<bool> = parts.iter().map(|_| false).chain(of_outlines).collect();
         parts.extend(outlines.iter().map(|outline| outline.part(self.layer.as_deref())));
         if parts.is_empty() {
-            let left_out = self.tally.into_left_out();
-            let left_out = left_out.iter().map(|one| format!("{} {}: {}", one.count, one.what, one.why)).collect();
-            let what = format!("has no footprints of buildings ({})", crate::message::few(left_out));
+            let what = format!("has no footprints of buildings ({})", listed(&self.tally.into_left_out()));
             return Err(message![what; "export a layer of polygons with heights"].into());
         }
         Ok(Model {
@@ -179,6 +177,7 @@ impl Footprints {
         let tags = &footprint.tags;
         let name = || names_of(tags, footprint.number, self.layer.as_deref()).0;
         told.unread.add_if(tags.has_unread_height(), name);
+        told.unread_bottom.add_if(tags.has_unread_bottom(), name);
         // a part of a guessed height would replace an outline whose height is known
         let default_height_m = default_height_m.filter(|_| !tags.is_part());
         match tags.rise(default_height_m) {
@@ -194,7 +193,7 @@ impl Footprints {
 
     /// Notes which heights are guessed, and which are missing.
     fn note(&mut self, told: &HeightCounts, default_height_m: Option<f64>) {
-        let HeightCounts { without, unread, by_levels, by_default, crossing, .. } = told;
+        let HeightCounts { without, unread, unread_bottom, by_levels, by_default, crossing, .. } = told;
         if by_levels.count > 0 {
             let what = format!(
                 "says storeys and no height of {}: a storey is guessed to be {} m high",
@@ -217,9 +216,13 @@ impl Footprints {
             );
         }
         if unread.count > 0 {
-            let what = format!("has {} written otherwise than \"12 m\" or \"40'\" are", unread.told("height"));
-            self.notes.push(message![what; "write heights in metres"]);
+            let what = format!(
+                "has {} written otherwise than \"12 m\" or \"40'\" are, or with a comma that may stand between thousands",
+                unread.told("height")
+            );
+            self.notes.push(message![what; "write heights in metres, with a point, and storeys as one number"]);
         }
+        self.notes.extend(unread_bottom_note(unread_bottom));
         if crossing.count > 0 {
             let what = match crossing.count {
                 1 => "whose outline crosses itself, so that its block may cover too much or too little",
@@ -228,6 +231,16 @@ impl Footprints {
             self.notes.push(message![format!("has {} {what}", crossing.told("footprint"))]);
         }
     }
+}
+
+/// That bottoms are written that cannot be read, where some are.
+fn unread_bottom_note(unread: &NamedFootprints) -> Option<Message> {
+    let stand = if unread.count == 1 { "its block stands" } else { "their blocks stand" };
+    let what = format!(
+        "has {} that cannot be read in min_height or building:min_level, so that {stand} on the ground",
+        unread.told("bottom")
+    );
+    (unread.count > 0).then(|| message![what; "write them in metres above the ground, with a point"])
 }
 
 /// The key for the height of one model's footprints.
@@ -272,6 +285,8 @@ struct HeightCounts {
     without: NamedFootprints,
     /// One is written that is none.
     unread: NamedFootprints,
+    /// A bottom is written that is none.
+    unread_bottom: NamedFootprints,
     /// Guessed from storeys.
     by_levels: NamedFootprints,
     /// The user's for all.

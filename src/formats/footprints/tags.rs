@@ -131,17 +131,25 @@ impl FootprintTags {
         said.map(|metres| (metres, HeightSource::Said)).or_else(guessed)
     }
 
-    /// Whether a height is written that is none.
+    /// Whether a height is written, in a length or in storeys, that is none.
     pub(super) fn has_unread_height(&self) -> bool {
         let mut written = [&self.height, &self.building_height].into_iter().flatten();
-        written.any(|text| height(text).is_none())
+        let is_unread = |text: &String| levels(text).is_none();
+        written.any(|text| height(text).is_none()) || self.levels.as_ref().is_some_and(is_unread)
+    }
+
+    /// Whether a bottom is written that is none; it is taken as the ground.
+    pub(super) fn has_unread_bottom(&self) -> bool {
+        let is_storey = |text: &String| levels(text).is_some() || number(text) == Some(0.0);
+        self.min_height.as_ref().is_some_and(|text| bottom(text).is_none())
+            || self.min_level.as_ref().is_some_and(|text| !is_storey(text))
     }
 
     /// From where to where it reaches; none where nobody says it.
     pub(super) fn rise(&self, default_height_m: Option<f64>) -> Option<Rise> {
         let default = default_height_m.map(|metres| (metres, HeightSource::Default));
         let (top_m, from) = self.height_m().or(default)?;
-        let said = self.min_height.as_deref().and_then(metres).filter(|&metres| metres >= 0.0);
+        let said = self.min_height.as_deref().and_then(bottom);
         let guessed = || self.min_level.as_deref().and_then(levels).map(|levels| levels * STOREY_M);
         let bottom = said.or_else(guessed);
         let bottom_is_guessed = said.is_none() && bottom.is_some();
@@ -164,6 +172,11 @@ fn is_yes(value: &str) -> bool {
 /// A height that a building can have.
 fn height(text: &str) -> Option<f64> {
     metres(text).filter(|&metres| metres > 0.0 && metres <= MOST_M)
+}
+
+/// A bottom that a building can have above the ground.
+fn bottom(text: &str) -> Option<f64> {
+    metres(text).filter(|&metres| (0.0..=MOST_M).contains(&metres))
 }
 
 /// A count of storeys.
@@ -190,11 +203,22 @@ pub(super) fn metres(text: &str) -> Option<f64> {
     }
 }
 
-/// A finite number, with a point or a comma before its decimals.
+/// A finite number, with a point or a comma before its decimals. `1,200` is none: it may be one or a thousand.
 fn number(text: &str) -> Option<f64> {
     let text = text.trim();
+    if is_ambiguous(text) {
+        return None;
+    }
     let text = if text.contains('.') { text.to_owned() } else { text.replacen(',', ".", 1) };
     text.parse().ok().filter(|number: &f64| number.is_finite())
+}
+
+/// Whether a comma may stand before decimals or between thousands.
+fn is_ambiguous(text: &str) -> bool {
+    let Some((whole, decimals)) = text.split_once(',') else { return false };
+    let is_number = |text: &str| text.bytes().all(|letter| letter.is_ascii_digit());
+    let may_be_thousands = (1..=3).contains(&whole.len()) && !whole.starts_with('0');
+    may_be_thousands && is_number(whole) && decimals.len() == 3 && is_number(decimals)
 }
 
 /// The strings in quotes of a text; a backslash takes the next letter as it is.

@@ -36,6 +36,12 @@ pub(super) fn compression<'a>(document: &Document, primitive: &'a Primitive) -> 
     (!is_plain).then_some(said)
 }
 
+/// Whether anything has to be unpacked.
+pub(super) fn is_used(document: &Document) -> bool {
+    let mut primitives = document.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    primitives.any(|primitive| compression(document, primitive).is_some())
+}
+
 /// The view that holds a primitive's bytes.
 pub(super) fn view(said: &Value) -> Option<usize> {
     usize::try_from(said.get("bufferView")?.as_u64()?).ok()

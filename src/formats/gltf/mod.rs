@@ -68,6 +68,13 @@ impl Format for Gltf {
         Ok(read(path, options)?)
     }
 
+    /// Draco's decoder is others' code. A scene that the file has not is told here, where it is known who asked for it.
+    fn is_foreign(&self, path: &Path, options: &ReadOptions) -> bool {
+        let Some(json) = container::json_of_file(path) else { return false };
+        let Ok(document) = document::Document::parse(&json, &[]) else { return false };
+        draco::is_used(&document) && scene::place(&document, options.scene.as_ref()).is_ok()
+    }
+
     fn named_by(&self, path: &Path) -> Vec<PathBuf> {
         named::named_by(path)
     }

@@ -60,7 +60,7 @@ impl Format for Ifc {
         .into())
     }
 
-    fn is_foreign(&self) -> bool {
+    fn is_foreign(&self, _path: &Path, _options: &ReadOptions) -> bool {
         true
     }
 }

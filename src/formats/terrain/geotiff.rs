@@ -4,13 +4,13 @@ use super::geokeys::MapKeys;
 use super::grid::HeightGrid;
 use super::model_of;
 use crate::formats::source::stem;
-use crate::formats::whole::sidecar;
+use crate::formats::whole::{sibling, sidecar};
 use crate::formats::{Format, Model, ModelFault, ReadOptions};
 use crate::message::{Message, message};
 use glam::DVec2;
 use std::fs::File;
 use std::io::BufReader;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use tiff::TiffError;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
@@ -43,6 +43,14 @@ impl Format for GeoTiff {
 
     fn begins(&self, head: &[u8]) -> bool {
         [b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"].iter().any(|mark| head.starts_with(*mark))
+    }
+
+    fn is_foreign(&self, _path: &Path, _options: &ReadOptions) -> bool {
+        true
+    }
+
+    fn named_by(&self, path: &Path) -> Vec<PathBuf> {
+        sibling(path, "tfw").into_iter().collect()
     }
 
     fn read(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {

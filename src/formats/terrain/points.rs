@@ -50,7 +50,7 @@ impl Format for LasPoints {
         head.starts_with(b"LASF")
     }
 
-    fn is_foreign(&self) -> bool {
+    fn is_foreign(&self, _path: &Path, _options: &ReadOptions) -> bool {
         true
     }
 

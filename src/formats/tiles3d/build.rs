@@ -2,8 +2,8 @@
 
 use super::b3dm::{MAGIC, TileGltf, cesium_center, opened};
 use crate::formats::gltf::GltfContext;
-use crate::formats::left_out::{LeftOutTally, label};
-use crate::formats::{Coordinates, MAX_TRIANGLES, Model, ModelFault, ReadOptions, SeeThrough, Up, gltf};
+use crate::formats::left_out::{LeftOutTally, label, listed};
+use crate::formats::{Coordinates, LeftOut, MAX_TRIANGLES, Model, ModelFault, ReadOptions, SeeThrough, Up, gltf};
 use crate::mesh::Part;
 use crate::message::{Message, few, message};
 use glam::{DMat4, DVec3};
@@ -14,6 +14,9 @@ const EARTH_M: std::ops::Range<f64> = 6.3e6..6.42e6;
 
 /// The most notes of contents that are told; thousands of tiles say the same.
 const MOST_NOTES: usize = 10;
+
+/// Why a content is left out whose own reason is told.
+const UNREADABLE: &str = "the file cannot be read";
 
 /// Collects the parts of all contents.
 pub(super) struct TileBuilder {
@@ -41,7 +44,7 @@ impl TileBuilder {
 
     /// A content that cannot be used.
     pub(super) fn fail(&mut self, name: &str, fault: &ModelFault) {
-        self.tally.add("contents", "the file cannot be read");
+        self.tally.add("contents", UNREADABLE);
         if self.failed.len() < MOST_NOTES {
             self.failed.push(format!("{name} {fault}"));
         }
@@ -134,10 +137,10 @@ impl TileBuilder {
 
     /// The model, with what the tileset leaves out.
     pub(super) fn finish_with(mut self, tileset: LeftOutTally) -> Result<Model, ModelFault> {
+        let mut left_out = self.tally.into_left_out();
+        left_out.extend(tileset.into_left_out());
         if self.parts.is_empty() {
-            let why = if self.failed.is_empty() { String::new() } else { format!(" ({})", few(self.failed)) };
-            let what = format!("has no content in its folder that can be read{why}");
-            return Err(message![what; "copy the whole folder of the tileset, with its contents"].into());
+            return Err(nothing(self.failed, &left_out).into());
         }
         if !self.failed.is_empty() {
             let what = format!("has contents that cannot be read: {}", few(self.failed));
@@ -151,8 +154,6 @@ impl TileBuilder {
             ]);
             Coordinates::Local
         };
-        let mut left_out = self.tally.into_left_out();
-        left_out.extend(tileset.into_left_out());
         Ok(Model {
             parts: self.parts,
             up: Up::Z,
@@ -165,6 +166,16 @@ impl TileBuilder {
             ..Model::default()
         })
     }
+}
+
+/// That nothing was read, and why.
+fn nothing(failed: Vec<String>, left_out: &[LeftOut]) -> Message {
+    let is_told = |one: &&LeftOut| one.what == "contents" && one.why == UNREADABLE;
+    let others: Vec<LeftOut> = left_out.iter().filter(|one| !is_told(one)).cloned().collect();
+    let why: Vec<String> = [few(failed), listed(&others)].into_iter().filter(|why| !why.is_empty()).collect();
+    let why = if why.is_empty() { String::new() } else { format!(" ({})", why.join("; ")) };
+    let what = format!("has no content in its folder that can be read{why}");
+    message![what; "copy the whole folder of the tileset, with its contents"]
 }
 
 /// Whether parts lie at the Earth's surface, seen from its centre.

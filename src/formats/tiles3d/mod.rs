@@ -57,6 +57,11 @@ impl Format for Tiles3d {
         builder.finish_with(listed.tally)
     }
 
+    /// Contents are often compressed by Draco; which are is known only when all have been opened.
+    fn is_foreign(&self, _path: &Path, _options: &ReadOptions) -> bool {
+        true
+    }
+
     fn named_by(&self, path: &Path) -> Vec<PathBuf> {
         let listed = whole_file(path).ok().and_then(|bytes| tileset::contents(path, &bytes).ok());
         let files = listed.map(|listed| {

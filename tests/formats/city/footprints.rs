@@ -160,15 +160,18 @@ fn what_is_no_polygon_is_told() {
     let line = json!({"type": "Feature", "properties": null, "geometry": {"type": "LineString", "coordinates": [[1, 2], [3, 4]]}});
     let empty = json!({"type": "Feature", "properties": {"height": 3}, "geometry": null});
     let flat = feature(&[vec![[1.0, 1.0], [2.0, 1.0], [3.0, 1.0], [1.0, 1.0]]], json!({"height": 3}));
+    let bow = feature(&[vec![[0.0, 0.0], [4.0, 4.0], [4.0, 0.0], [0.0, 4.0], [0.0, 0.0]]], json!({"height": 3}));
     let many = json!({"type": "Feature", "properties": {"height": 4}, "geometry": {"type": "GeometryCollection", "geometries": [
         {"type": "Point", "coordinates": [1, 2]},
         {"type": "MultiPolygon", "coordinates": [[square(0.0, 0.0, 1.0)], [square(5.0, 0.0, 2.0)]]},
     ]}});
-    let model = model_of("a.geojson", collection(&[point, line, empty, flat, many]).to_string());
-    assert_eq!(names(&model), ["footprint 5"]);
+    let model = model_of("a.geojson", collection(&[point, line, empty, flat, bow, many]).to_string());
+    assert_eq!(names(&model), ["footprint 6"]);
     assert!((volume(&model) - 20.0).abs() < 1e-6);
     let counts = ["Point", "LineString", "features", "polygons"].map(|what| left_out(&model, what));
-    assert_eq!(counts, [2, 1, 1, 1], "{:?}", model.left_out);
+    assert_eq!(counts, [2, 1, 1, 2], "{:?}", model.left_out);
+    let polygons = model.left_out.iter().filter(|left| left.what == "polygons").map(|left| left.why.as_str());
+    assert_eq!(polygons.collect::<Vec<_>>(), ["crosses itself, or runs back on itself", "no area"]);
 }
 
 #[test]

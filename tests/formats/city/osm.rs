@@ -44,9 +44,11 @@ fn lengths_are_read_as_people_write_them() {
     ] {
         assert_eq!(high(json!({"height": text})), Some(metres), "{text}");
     }
-    for text in ["tall", "12 km", "-3", "0", "5000", "12;15", "NaN", "inf", "", "3 cm", "40'13\""] {
+    for text in ["tall", "12 km", "-3", "0", "5000", "12;15", "NaN", "inf", "", "3 cm", "40'13\"", "1,200", "12,500 m"]
+    {
         assert_eq!(high(json!({"height": text})), None, "{text}");
     }
+    assert_eq!(high(json!({"height": "0,500"})), Some(0.5));
     assert_eq!(high(json!({"height": 8})), Some(8.0));
     assert_eq!(high(json!({"height": null})), None);
 }
@@ -105,6 +107,29 @@ fn guesses_are_told_with_how_many() {
     assert_eq!((model.parts.len(), left_out(&model, "footprints")), (5, 1));
     let notes = texts(&model);
     assert!(notes.iter().any(|note| note.contains("2 footprints") && note.contains("11 m")), "{notes:?}");
+}
+
+/// What is written and cannot be read is told, whether something else stands instead or not.
+#[test]
+fn heights_and_bottoms_that_cannot_be_read_are_told() {
+    let notes = |properties: Value| {
+        let other = json!({"height": 1, "name": "other"});
+        let model = model_of("a.geojson", houses(&[properties, other]).to_string());
+        model.notes.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+    };
+    for (key, text) in
+        [("min_height", "x"), ("min_height", "-2"), ("min_height", "1,200"), ("building:min_level", "2;3")]
+    {
+        let told = notes(json!({"name": "house", "height": 9, key: text}));
+        assert!(told.contains("has 1 bottom (of house) that cannot be read"), "{key} {text}: {told}");
+    }
+    for (key, text) in [("building:levels", "2;3"), ("building:levels", "3+1"), ("height", "1,200"), ("levels", "0")] {
+        let told = notes(json!({"name": "house", key: text}));
+        assert!(told.contains("1 height (of house) written otherwise"), "{key} {text}: {told}");
+    }
+    for (key, text) in [("min_height", "0"), ("building:min_level", "0"), ("building:levels", "2")] {
+        assert_eq!(notes(json!({"name": "house", "height": 9, key: text})), "", "{key} {text}");
+    }
 }
 
 #[test]

@@ -180,6 +180,12 @@ fn implicit_tilings_other_contents_and_circles_are_told() {
     assert!(model.notes[0].to_string().contains("c is cut off"), "{:?}", model.notes);
     drop(folder);
     let (_folder, path) = written("tileset.json", tileset(tile("gone.glb")));
-    let error = gnomon::formats::read(&path, &Default::default()).expect_err("nothing").to_string();
-    assert!(error.contains("copy the whole folder"), "{error}");
+    let fault =
+        |path: &std::path::Path| gnomon::formats::read(path, &Default::default()).expect_err("nothing").to_string();
+    let error = fault(&path);
+    assert!(error.contains("copy the whole folder") && error.contains("gone cannot be read"), "{error}");
+    let (_folder, path) = written("tileset.json", tileset(tile("tileset.json")));
+    assert!(fault(&path).contains("(1 tileset: tilesets name each other too often)"), "{}", fault(&path));
+    let (_folder, path) = written("tileset.json", tileset(tile("../a.glb")));
+    assert!(fault(&path).contains("the address does not lie in the tileset's folder"), "{}", fault(&path));
 }
