@@ -148,7 +148,11 @@ fn write(
     watch.lap("raster");
     stage("raster")?;
     let drawn = &outcome.drawn[1];
-    let (timings, notes) = (&watch.timings(), &pair.notes());
+    let (timings, mut notes) = (&watch.timings(), pair.notes());
+    // what is known of one state may be new of the other
+    let new = outcome.notes.iter().filter(|note| !notes.contains(note)).cloned().collect::<Vec<_>>();
+    notes.extend(new);
+    let notes = &notes;
     let told = ReportContext { notes, ..report_context(site, site.receivers, drawn, timings, None) };
     let report = comparison::json(change, &pair.names, &site.place, &site.track, &told)?;
     let [of_drawing, of_raster, of_report] = names();

@@ -5,8 +5,9 @@ use super::shelf::{self, PatchStore};
 use super::sink::OpenSink;
 use super::{DeliverError, Folder, NamedFile, Sink, WrittenFiles};
 use crate::choice::Receivers;
+use crate::export::figure;
 use crate::export::patches::{self, PatchContext};
-use crate::export::{figure, report};
+use crate::export::report::{self, ReportContext};
 use crate::profile::Provenance;
 use crate::site::Site;
 use crate::study::{self, Event, OnEvent, PatchOutcome, Stopwatch, StudyError, tell};
@@ -156,7 +157,9 @@ fn write(
     if asked.table {
         files.push((TABLE.into(), patches::csv(&answer).into_bytes()));
     }
-    let report = report::patches_json(&answer, &report_context(site, receivers, drawn, &watch.timings(), None))?;
+    let (timings, notes) = (&watch.timings(), &[&site.notes[..], &outcome.notes].concat());
+    let told = ReportContext { notes, ..report_context(site, receivers, drawn, timings, None) };
+    let report = report::patches_json(&answer, &told)?;
     if asked.report {
         files.push((REPORT.into(), report.clone().into_bytes()));
     }
