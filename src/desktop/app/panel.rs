@@ -50,13 +50,18 @@ pub(in crate::desktop) fn show(app: &mut App, ui: &mut Ui) {
     });
 }
 
-/// The command's notes on the models, also on those before if two states are compared.
+/// The command's notes on the models, also on those before if two states are compared, and on what was found.
 fn notes(app: &App) -> Vec<&Message> {
     let Some(open) = &app.open else { return Vec::new() };
-    let notes = &open.project.site.notes;
-    let before =
-        open.result.as_ref().and_then(|result| result.change()).map_or(&[][..], |change| change.notes_before());
-    notes.iter().chain(before.iter().filter(|note| !notes.contains(note))).collect()
+    let mut notes: Vec<&Message> = open.project.site.notes.iter().collect();
+    let Some(result) = &open.result else { return notes };
+    let before = result.change().map_or(&[][..], |change| change.notes_before());
+    for note in before.iter().chain(&result.notes) {
+        if !notes.contains(&note) {
+            notes.push(note);
+        }
+    }
+    notes
 }
 
 /// What the user should know of the models, with the keys that would correct what looks wrong.
