@@ -1,7 +1,7 @@
 //! The hours of sun on the model itself, as a drawing, a model, a table and a report.
 
 use super::parts::{DrawnView, figure_context, note, note_letters, report_context};
-use super::shelf::{self, PatchStore};
+use super::shelf::{self, Beside, PatchStore};
 use super::sink::OpenSink;
 use super::{DeliverError, Folder, NamedFile, Sink, WrittenFiles};
 use crate::choice::Receivers;
@@ -63,7 +63,7 @@ pub fn patches(
     if asked.drawing {
         note_letters([site.place.name.as_str()], on_event)?;
     }
-    let (outcome, store) = find(site, sink.folder(), on_event)?;
+    let (outcome, store) = find(site, sink.folder(), Beside::Studies(&[]), on_event)?;
     watch.laps(outcome.timings.clone());
     let asked = PatchesRequest { watch, ..asked.clone() };
     let mut stage =
@@ -85,7 +85,7 @@ pub fn find_patches(
     on_event: &mut OnEvent<'_>,
 ) -> Result<PatchOutcome, DeliverError> {
     shelf::find(shelf, on_event, |folder, on_event| {
-        let (outcome, store) = find(site, folder, on_event)?;
+        let (outcome, store) = find(site, folder, Beside::Shelf, on_event)?;
         // what stays there is another time's to remove
         let _ = store.finish();
         Ok(outcome)
@@ -96,9 +96,10 @@ pub fn find_patches(
 fn find<'a>(
     site: &Site,
     folder: Option<&'a Path>,
+    beside: Beside<'a>,
     on_event: &mut OnEvent<'_>,
 ) -> Result<(PatchOutcome, PatchStore<'a>), DeliverError> {
-    let mut store = PatchStore::new(folder);
+    let mut store = PatchStore::new(folder, beside);
     let found =
         study::patches_kept(site, site.patch_cell, store.keep_every(), &mut |event| store.hear(event, on_event));
     let found = store.take_fault().map_or(found.map_err(DeliverError::from), Err);

@@ -1,9 +1,10 @@
 //! Finds the hours of shadow on a plan.
 
 use super::ProfileRequest;
-use super::keeping::{Beside, StudyStore};
+use super::keeping::StudyStore;
 use super::sums::Sums;
 use crate::deliver::DeliverError;
+use crate::deliver::shelf::Beside;
 use crate::export::ExportError;
 use crate::export::figure::Outline;
 use crate::mesh::Mesh;
