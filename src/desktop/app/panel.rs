@@ -11,7 +11,7 @@ use crate::desktop::state::bare_model::NORTH;
 use crate::desktop::state::eye::Stand;
 use crate::desktop::state::technique;
 use crate::desktop::state::unit::Unit;
-use crate::desktop::state::words::PanelWords;
+use crate::desktop::state::words;
 use crate::export::figure::{self, Diagram};
 use crate::message::Message;
 use crate::site::file::{ModelTable, PlaceTable, Text};
@@ -66,7 +66,8 @@ fn notes(app: &App) -> Vec<&Message> {
 
 /// What the user should know of the models, with the keys that would correct what looks wrong.
 fn section_of_notes(app: &mut App, ui: &mut Ui) {
-    let notes: Vec<String> = notes(app).into_iter().map(|note| note.in_words(&PanelWords)).collect();
+    let words = words::of_panel(app.settings.site.model.len());
+    let notes: Vec<String> = notes(app).into_iter().map(|note| note.in_words(words)).collect();
     let Some(open) = app.open.as_ref().filter(|_| !notes.is_empty()) else { return };
     let models = &mut app.settings.site.model;
     let are_several = models.len() > 1;
