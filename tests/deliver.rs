@@ -120,6 +120,45 @@ fn hours_go_on_from_their_shelf() {
     assert_eq!(read(&shelf).count(), 0, "nothing stays of a study that is done");
 }
 
+/// So do hours with each instant's shadow, of which outlines are drawn.
+#[test]
+fn outlines_go_on_from_their_shelf() {
+    let folder = site();
+    let site = loaded(folder.path(), "15min");
+    let shelf = folder.path().join("studies");
+    let asked = ProfileRequest { bits: true, ..ProfileRequest::of(Stopwatch::start()) };
+    let mut drawn = 0;
+    let mut notes = Vec::new();
+    let mut find = |most: usize, shelf: Option<Folder<'_>>| {
+        drawn = 0;
+        let hours = find_hours(&site, &asked, shelf, &mut |event| -> ControlFlow<()> {
+            if let Event::Note(note) = &event {
+                notes.push(note.to_string());
+            }
+            drawn += usize::from(matches!(event, Event::Drawn { .. }));
+            if drawn < most { Continue(()) } else { Break(()) }
+        });
+        let both = |hours: gnomon::deliver::profile::Hours| {
+            let outlines: Vec<_> = hours.outlines.iter().map(|one| (one.index, one.shadow.clone())).collect();
+            (hours.shaded().unwrap().clone(), outlines)
+        };
+        (hours.map(both), drawn)
+    };
+    let (whole, count) = find(usize::MAX, None);
+    let (shaded, outlines) = whole.unwrap();
+    assert_eq!((count, outlines.len()), (9, 9));
+    assert!(outlines.iter().any(|(_, shadow)| shadow.words.iter().any(|word| *word != 0)));
+    let (stopped, _) = find(4, Some(inside(&shelf)));
+    assert!(stopped.is_err_and(|error| error.is_interrupted()));
+    assert_eq!(read(&shelf).count(), 2, "the sums and the bits are kept");
+    let (gone_on, drawn) = find(usize::MAX, Some(inside(&shelf)));
+    assert_eq!(drawn, count - 4);
+    let gone_on = gone_on.unwrap();
+    assert!(*gone_on.0 == *shaded && gone_on.1 == outlines);
+    assert_eq!(read(&shelf).count(), 0, "nothing stays of a study that is done");
+    assert!(!notes.iter().any(|note| note.contains("shadow.bits")), "{notes:?}");
+}
+
 /// So do hours of sun on patches; and in the command's folder.
 #[test]
 fn patches_go_on_from_where_they_were_stopped() {

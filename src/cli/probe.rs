@@ -103,9 +103,10 @@ pub(super) fn probe(asked: &ProbeArgs) -> anyhow::Result<()> {
     let mut inputs = asked.site.inputs()?;
     inputs.extend(asked.points.clone());
     let sink = Sink::Paths { inputs: &inputs };
-    let ProbeAnswer { sunlight, written } = deliver(&probing, &request, sink, &mut |event| progress.heard(&event))?;
+    let ProbeAnswer { sunlight, notes, written } =
+        deliver(&probing, &request, sink, &mut |event| progress.heard(&event))?;
     match asked.common.json {
-        true => say(&told::json(&sunlight, &probing.place, &probing.ground, (&probing.notes, &Options))?),
+        true => say(&told::json(&sunlight, &probing.place, &probing.ground, (&notes, &Options))?),
         false => say(&(told::table(&sunlight, &probing.place, &probing.ground) + &lines(&written))),
     }
 }

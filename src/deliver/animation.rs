@@ -5,7 +5,7 @@ use super::parts::{DrawnView, figure_context, note, note_letters, report_context
 use super::{DeliverError, Folder, Sink, WrittenFiles};
 use crate::export::animation::{Frames, MOST_FRAMES};
 use crate::export::figure::{self, PictureExtras};
-use crate::export::report;
+use crate::export::report::{self, ReportContext};
 use crate::profile::Provenance;
 use crate::site::Site;
 use crate::study::{self, Event, Frame, OnEvent, Stopwatch, tell};
@@ -64,7 +64,13 @@ pub fn animation(
     watch.lap("load");
     note(open.note(), on_event)?;
     note_letters([site.place.name.as_str()], on_event)?;
-    let (drawn, frames) = draw(site, asked, folder.path, on_event)?;
+    let mut notes = site.notes.clone();
+    let mut frames = Frames::new(folder.path, count)?;
+    note(frames.note(), on_event)?;
+    let drawn = draw(site, asked, &mut frames, &mut |event| {
+        study::gather(&event, &site.notes, &mut notes);
+        on_event(event)
+    })?;
     watch.lap("frames");
     open.check()?;
     // for whole hundredths of a second
@@ -76,7 +82,8 @@ pub fn animation(
     let gif = gif.finish()?;
     watch.lap("gif");
     let timings = &watch.timings();
-    let told = report_context(site, study::judged(site, &asked.view), &drawn, timings, None);
+    let receivers = study::judged(site, &asked.view);
+    let told = ReportContext { notes: &notes, ..report_context(site, receivers, &drawn, timings, None) };
     let report = report::shadow_json(&asked.view, &site.place, &site.track, &told)?;
     let paths = (0..count).map(|index| Frames::path(folder.path, index)).collect();
     Ok(AnimationAnswer { gif, frames: WrittenFiles { paths, files: Vec::new() }, report, drawn })
@@ -86,17 +93,14 @@ pub fn animation(
 fn draw(
     site: &Site,
     asked: &AnimationRequest,
-    folder: &Path,
+    frames: &mut Frames,
     on_event: &mut OnEvent<'_>,
-) -> Result<(Provenance, Frames), DeliverError> {
-    let mut frames = Frames::new(folder, site.track.instants.len())?;
-    note(frames.note(), on_event)?;
-    let drawn = study::frames(site, asked.view, on_event, &mut |frame| -> Result<(), DeliverError> {
+) -> Result<Provenance, DeliverError> {
+    study::frames(site, asked.view, on_event, &mut |frame| -> Result<(), DeliverError> {
         let Frame { track, mask, surface, surface_mesh: mesh, receivers, drawn } = *frame;
         let scene =
             figure::FigureContext { track, ..figure_context(site, DrawnView { receivers, surface, mesh, drawn }) };
         let picture = figure::instant_on_screen(&scene, &asked.view, mask, &PictureExtras::default(), asked.width)?;
         Ok(frames.add(&picture)?)
-    })?;
-    Ok((drawn, frames))
+    })
 }

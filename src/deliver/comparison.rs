@@ -1,8 +1,8 @@
 //! The comparison: what a change of a site does to its sun, as a drawing, a raster and a report.
 
 use super::parts::{DrawnView, figure_context, note, note_letters, report_context};
-use super::profile::{Beside, ProfileRequest, StudyStore, find_kept};
-use super::shelf;
+use super::profile::{ProfileRequest, StudyStore, find_kept};
+use super::shelf::{self, Beside};
 use super::sink::OpenSink;
 use super::{DeliverError, Folder, Sink, WrittenFiles};
 use crate::export::report::ReportContext;
@@ -43,7 +43,7 @@ pub fn comparison(
     watch.lap("load");
     note(open.note(), on_event)?;
     note_letters([&pair.names[0], &pair.names[1], &pair.after.place.name].map(String::as_str), on_event)?;
-    let (outcome, stores) = find(pair, None, sink.folder(), on_event)?;
+    let (outcome, stores) = find(pair, None, sink.folder(), false, on_event)?;
     watch.lap("shadows");
     let kept = || stores.iter().find_map(StudyStore::kept);
     let has_folder = sink.folder().is_some();
@@ -67,7 +67,7 @@ pub fn find_comparison(
     on_event: &mut OnEvent<'_>,
 ) -> Result<CompareOutcome, DeliverError> {
     shelf::find(shelf, on_event, |folder, on_event| {
-        let (outcome, stores) = find(pair, before.cloned(), folder, on_event)?;
+        let (outcome, stores) = find(pair, before.cloned(), folder, true, on_event)?;
         for store in stores {
             // what stays there is another time's to remove
             let _ = store.finish();
@@ -76,11 +76,13 @@ pub fn find_comparison(
     })
 }
 
-/// Finds the comparison, and continues what the study of either state left in the folder when it was stopped.
+/// Finds the comparison, and continues what the study of either state left in the folder when it was stopped. Where it
+/// `is_shown`, the folder is a shelf, and the states' names stand beside it.
 fn find<'a>(
     pair: &Pair,
     before: Option<Outcome>,
     folder: Option<&'a Path>,
+    is_shown: bool,
     on_event: &mut OnEvent<'_>,
 ) -> Result<(CompareOutcome, Vec<StudyStore<'a>>), DeliverError> {
     study::not_patches(&pair.before)?;
@@ -88,7 +90,8 @@ fn find<'a>(
     let asked = ProfileRequest::of(Stopwatch::start());
     let mut stores: Vec<StudyStore<'a>> = Vec::new();
     let mut outcome = |when: &str, site: &Site, name: &str, beside: Beside<'_>| {
-        tell(on_event, Event::Note(format!("{when}: {name}").into()))?;
+        note((!is_shown).then(|| format!("{when}: {name}")), on_event)?;
+        let beside = if is_shown { Beside::Shelf } else { beside };
         let (hours, store) = find_kept(site, &asked, folder, beside, on_event)?;
         Ok::<_, DeliverError>((hours.into_outcome()?, store))
     };
@@ -148,7 +151,11 @@ fn write(
     watch.lap("raster");
     stage("raster")?;
     let drawn = &outcome.drawn[1];
-    let (timings, notes) = (&watch.timings(), &pair.notes());
+    let (timings, mut notes) = (&watch.timings(), pair.notes());
+    // what is known of one state may be new of the other
+    let new = outcome.notes.iter().filter(|note| !notes.contains(note)).cloned().collect::<Vec<_>>();
+    notes.extend(new);
+    let notes = &notes;
     let told = ReportContext { notes, ..report_context(site, site.receivers, drawn, timings, None) };
     let report = comparison::json(change, &pair.names, &site.place, &site.track, &told)?;
     let [of_drawing, of_raster, of_report] = names();

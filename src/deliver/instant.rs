@@ -3,7 +3,8 @@
 use super::parts::{DrawnView, figure_context, note, note_letters, report_context};
 use super::{DeliverError, Sink, WrittenFiles};
 use crate::export::figure::{self, Diagram, PictureExtras};
-use crate::export::{raster, report};
+use crate::export::raster;
+use crate::export::report::{self, ReportContext};
 use crate::profile::{Provenance, Statistics};
 use crate::site::Site;
 use crate::study::{self, CountingPurpose, Event, InstantOutcome, InstantWants, OnEvent, Stopwatch, tell};
@@ -72,7 +73,11 @@ pub fn instant(
         let parts = site.mesh.components.iter().filter(|_| asked.show.components).map(|part| part.name.as_str());
         note_letters([site.place.name.as_str()].into_iter().chain(parts), on_event)?;
     }
-    let outcome = study::instant(site, asked.view, &asked.wants(), on_event)?;
+    let mut notes = site.notes.clone();
+    let outcome = study::instant(site, asked.view, &asked.wants(), &mut |event| {
+        study::gather(&event, &site.notes, &mut notes);
+        on_event(event)
+    })?;
     watch.laps(outcome.timings.clone());
 
     let mut ready = Vec::new();
@@ -89,8 +94,8 @@ pub fn instant(
     let written = open.put(ready)?;
     let statistics = outcome.counted.as_ref().filter(|_| asked.statistics).map(Statistics::of);
     let receivers = study::judged(site, &asked.view);
-    let timings = &watch.timings();
-    let told = report_context(site, receivers, &outcome.drawn, timings, statistics.as_ref());
+    let (timings, counted) = (&watch.timings(), statistics.as_ref());
+    let told = ReportContext { notes: &notes, ..report_context(site, receivers, &outcome.drawn, timings, counted) };
     let report = report::shadow_json(&asked.view, &site.place, &site.track, &told)?;
     Ok(InstantAnswer { written, report, drawn: outcome.drawn, statistics })
 }

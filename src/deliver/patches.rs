@@ -1,12 +1,13 @@
 //! The hours of sun on the model itself, as a drawing, a model, a table and a report.
 
 use super::parts::{DrawnView, figure_context, note, note_letters, report_context};
-use super::shelf::{self, PatchStore};
+use super::shelf::{self, Beside, PatchStore};
 use super::sink::OpenSink;
 use super::{DeliverError, Folder, NamedFile, Sink, WrittenFiles};
 use crate::choice::Receivers;
+use crate::export::figure;
 use crate::export::patches::{self, PatchContext};
-use crate::export::{figure, report};
+use crate::export::report::{self, ReportContext};
 use crate::profile::Provenance;
 use crate::site::Site;
 use crate::study::{self, Event, OnEvent, PatchOutcome, Stopwatch, StudyError, tell};
@@ -62,7 +63,7 @@ pub fn patches(
     if asked.drawing {
         note_letters([site.place.name.as_str()], on_event)?;
     }
-    let (outcome, store) = find(site, sink.folder(), on_event)?;
+    let (outcome, store) = find(site, sink.folder(), Beside::Studies(&[]), on_event)?;
     watch.laps(outcome.timings.clone());
     let asked = PatchesRequest { watch, ..asked.clone() };
     let mut stage =
@@ -84,7 +85,7 @@ pub fn find_patches(
     on_event: &mut OnEvent<'_>,
 ) -> Result<PatchOutcome, DeliverError> {
     shelf::find(shelf, on_event, |folder, on_event| {
-        let (outcome, store) = find(site, folder, on_event)?;
+        let (outcome, store) = find(site, folder, Beside::Shelf, on_event)?;
         // what stays there is another time's to remove
         let _ = store.finish();
         Ok(outcome)
@@ -95,9 +96,10 @@ pub fn find_patches(
 fn find<'a>(
     site: &Site,
     folder: Option<&'a Path>,
+    beside: Beside<'a>,
     on_event: &mut OnEvent<'_>,
 ) -> Result<(PatchOutcome, PatchStore<'a>), DeliverError> {
-    let mut store = PatchStore::new(folder);
+    let mut store = PatchStore::new(folder, beside);
     let found =
         study::patches_kept(site, site.patch_cell, store.keep_every(), &mut |event| store.hear(event, on_event));
     let found = store.take_fault().map_or(found.map_err(DeliverError::from), Err);
@@ -156,7 +158,9 @@ fn write(
     if asked.table {
         files.push((TABLE.into(), patches::csv(&answer).into_bytes()));
     }
-    let report = report::patches_json(&answer, &report_context(site, receivers, drawn, &watch.timings(), None))?;
+    let (timings, notes) = (&watch.timings(), &[&site.notes[..], &outcome.notes].concat());
+    let told = ReportContext { notes, ..report_context(site, receivers, drawn, timings, None) };
+    let report = report::patches_json(&answer, &told)?;
     if asked.report {
         files.push((REPORT.into(), report.clone().into_bytes()));
     }

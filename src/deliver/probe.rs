@@ -4,7 +4,7 @@ use super::parts::note_letters;
 use super::{DeliverError, Sink, WrittenFiles};
 use crate::export::totals::totals as encode_totals;
 use crate::export::{figure, probe as encode};
-use crate::message::Words;
+use crate::message::{Message, Words};
 use crate::site::ProbeSite;
 use crate::study::{self, Event, OnEvent, tell};
 use crate::sunlight::Sunlight;
@@ -28,6 +28,8 @@ pub struct ProbeRequest {
 pub struct ProbeAnswer {
     /// When each point lies in the sun.
     pub sunlight: Sunlight,
+    /// What was noted of the models and of the search.
+    pub notes: Vec<Message>,
     /// The files that were written.
     pub written: WrittenFiles,
 }
@@ -49,7 +51,11 @@ pub fn probe(
         let probes = all.map(|probe| probe.name.as_str());
         note_letters([probing.place.name.as_str()].into_iter().chain(probes), on_event)?;
     }
-    let sunlight = study::probe::probe(probing, on_event)?;
+    let mut notes = probing.notes.clone();
+    let sunlight = study::probe::probe(probing, &mut |event| {
+        study::gather(&event, &probing.notes, &mut notes);
+        on_event(event)
+    })?;
     let mut files = Vec::new();
     if let Some(name) = &asked.table {
         files.push((name.clone(), encode::csv(&sunlight).into_bytes()));
@@ -61,5 +67,5 @@ pub fn probe(
         files.push((name.clone(), figure::strips(&sunlight, &probing.place, &probing.ground, asked.words)?));
     }
     tell(on_event, Event::Stage("picture"))?;
-    Ok(ProbeAnswer { written: open.write(files)?, sunlight })
+    Ok(ProbeAnswer { written: open.write(files)?, sunlight, notes })
 }

@@ -15,6 +15,31 @@ pub(super) const KEEP_EVERY: Duration = Duration::from_secs(60);
 /// The number of stopped studies that are kept on a shelf.
 const MOST_KEPT: usize = 4;
 
+/// What of the stopped studies in a folder the user hears.
+#[derive(Clone, Copy)]
+pub(super) enum Beside<'a> {
+    /// All but these, which belong to the same request.
+    Studies(&'a [u64]),
+    /// None, since one that belongs to the same request is not known yet.
+    Unknown,
+    /// None: nobody looks at what lies on a shelf.
+    Shelf,
+}
+
+impl Beside<'_> {
+    /// Removes what no study can continue with, and notes what others keep in the folder beside this one.
+    pub(super) fn tidy(self, folder: &Path, study: u64, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+        match self {
+            Beside::Studies(others) => note(unfinished::tidy(folder, &[others, &[study]].concat()), on_event),
+            Beside::Shelf => {
+                unfinished::tidy(folder, &[study]);
+                Ok(())
+            }
+            Beside::Unknown => Ok(()),
+        }
+    }
+}
+
 /// Notes where a stopped study will continue, for whoever stopped it.
 pub(super) fn note_kept(kept: Option<PathBuf>, on_event: &mut OnEvent<'_>) {
     if let Some(path) = kept {
@@ -70,6 +95,7 @@ pub(super) fn find<'a, T>(
 /// What a study on patches keeps in a folder while it runs.
 pub(super) struct PatchStore<'a> {
     folder: Option<&'a Path>,
+    beside: Beside<'a>,
     /// The study's fingerprint, once the study is prepared.
     study: Option<u64>,
     is_kept: bool,
@@ -78,8 +104,8 @@ pub(super) struct PatchStore<'a> {
 }
 
 impl<'a> PatchStore<'a> {
-    pub(super) fn new(folder: Option<&'a Path>) -> PatchStore<'a> {
-        PatchStore { folder, study: None, is_kept: false, fault: None }
+    pub(super) fn new(folder: Option<&'a Path>, beside: Beside<'a>) -> PatchStore<'a> {
+        PatchStore { folder, beside, study: None, is_kept: false, fault: None }
     }
 
     /// How often the state is kept; never without a folder.
@@ -116,7 +142,7 @@ impl<'a> PatchStore<'a> {
         match self.study {
             None => {
                 self.study = Some(number);
-                note(unfinished::tidy(folder, &[number]), on_event)?;
+                self.beside.tidy(folder, number, on_event)?;
             }
             // on another device it is another study, and what is kept is that of the first
             Some(first) if first != number => return Ok(None),

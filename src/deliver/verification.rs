@@ -21,10 +21,14 @@ pub struct VerificationAnswer {
 /// # Errors
 /// [`DeliverError`]; where there is no graphics adapter, or no sun, before anything is drawn.
 pub fn verification(site: &Site, on_event: &mut OnEvent<'_>) -> Result<VerificationAnswer, DeliverError> {
-    let found = study::verify::verify(site, on_event)?;
+    let mut notes = site.notes.clone();
+    let found = study::verify::verify(site, &mut |event| {
+        study::gather(&event, &site.notes, &mut notes);
+        on_event(event)
+    })?;
     Ok(VerificationAnswer {
         table: encode::table(&found, site),
-        report: encode::json(&found, site)?,
+        report: encode::json(&found, site, &notes)?,
         failure: encode::failure(&found),
     })
 }

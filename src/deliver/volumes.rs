@@ -45,8 +45,11 @@ pub fn volumes(
     tell(on_event, Event::Stage("volumes"))?;
     let plane = (site.ground.kind == GroundKind::Terrain).then(|| note_plane(site.ground.level));
     study::note_models(plane.as_slice(), on_event)?;
-    let notes: Vec<Message> = site.notes.iter().cloned().chain(plane).collect();
-    note_extent(&found, instant, on_event)?;
+    let mut notes: Vec<Message> = site.notes.iter().cloned().chain(plane).collect();
+    note_extent(&found, instant, &mut |event| {
+        study::gather(&event, &site.notes, &mut notes);
+        on_event(event)
+    })?;
     let volumes = Volumes {
         place: &site.place,
         instant,

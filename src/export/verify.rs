@@ -2,6 +2,7 @@
 
 use super::{ExportError, report};
 use crate::choice::{Engine, Finder, Promise, Truth};
+use crate::message::Message;
 use crate::site::Site;
 use crate::sun::{Place, SunTrack};
 use crate::verification::{HoursDifference, Row, Verification};
@@ -73,11 +74,11 @@ struct RowReport<'a> {
 ///   (`furthest_cells`); by how much the share of the sun, 0 to 1, and the hours of the profile are off
 ///   (`mean_share_off`, `largest_hours_off`, `mean_hours_off`); `secs_per_instant`; and `holds`, null where the technique
 ///   decides nothing;
-/// - `notes` as in `profile.json`.
+/// - `notes` as in `profile.json`: those given.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
-pub fn json(verification: &Verification, site: &Site) -> Result<String, ExportError> {
+pub fn json(verification: &Verification, site: &Site, notes: &[Message]) -> Result<String, ExportError> {
     let Site { place, track, receivers, ground, .. } = site;
     let Verification { grid, instants, clean, edge_share, sun_samples, disc_secs, rows } = verification;
     report::json(&VerifyReport {
@@ -99,7 +100,7 @@ pub fn json(verification: &Verification, site: &Site) -> Result<String, ExportEr
         edge_share_bound: *edge_share,
         holds: verification.failed().next().is_none(),
         techniques: rows.iter().map(|row| row_report(row, verification.row_holds(row))).collect(),
-        notes: report::said(&site.notes, site.words),
+        notes: report::said(notes, site.words),
     })
 }
 

@@ -5,6 +5,7 @@ use super::Outcome;
 use super::{Event, OnEvent, StudyError, Wants, not_patches, run, tell};
 use crate::choice::Receivers;
 use crate::mesh::Mesh;
+use crate::message::Message;
 use crate::profile::Provenance;
 use crate::profile::comparison::{Alteration, Comparison};
 use crate::shadow::plan_surface;
@@ -24,6 +25,8 @@ pub struct CompareOutcome {
     pub surfaces: [Surface; 2],
     /// The meshes whose faces the surfaces contain.
     pub meshes: [Mesh; 2],
+    /// What was noted of either beside the notes of its site.
+    pub notes: Vec<Message>,
 }
 
 /// Both profiles as [`super::run`] finds them, before first.
@@ -59,13 +62,19 @@ impl CompareOutcome {
             Receivers::Ground => altered_ground(pair),
             _ => Alteration::between(&seen_before, &seen_after),
         };
-        let Outcome { profile: of_before, drawn: drawn_before, surface_mesh: mesh_before, .. } = before;
-        let Outcome { profile: of_after, drawn: drawn_after, surface_mesh: mesh_after, .. } = after;
+        let Outcome { profile: of_before, drawn: drawn_before, surface_mesh: mesh_before, mut notes, .. } = before;
+        let Outcome { profile: of_after, drawn: drawn_after, surface_mesh: mesh_after, notes: notes_after, .. } = after;
+        for note in notes_after {
+            if !notes.contains(&note) {
+                notes.push(note);
+            }
+        }
         CompareOutcome {
             comparison: Comparison::new(of_before, of_after, altered),
             drawn: [drawn_before, drawn_after],
             surfaces: [seen_before, seen_after],
             meshes: [mesh_before, mesh_after],
+            notes,
         }
     }
 }

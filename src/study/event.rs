@@ -92,6 +92,16 @@ pub(crate) fn note_models(notes: &[Message], on_event: &mut OnEvent<'_>) -> Resu
     notes.iter().try_for_each(|note| tell(on_event, Event::Note(note.clone())))
 }
 
+/// Adds what an event notes, unless it is known or added already.
+pub(crate) fn gather(event: &Event<'_>, known: &[Message], notes: &mut Vec<Message>) {
+    if let Event::Note(note) = event
+        && !known.contains(note)
+        && !notes.contains(note)
+    {
+        notes.push(note.clone());
+    }
+}
+
 /// Says where the hours are of the instants alone, although times of change are asked.
 pub(super) fn note_instants_alone(site: &Site, found_secs: u32, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     if found_secs > 0 || !Gaps::new(site, site.track.resolution_secs).any() {

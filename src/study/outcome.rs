@@ -1,6 +1,7 @@
 //! The answers of a study, and of one instant.
 
 use crate::mesh::Mesh;
+use crate::message::Message;
 use crate::profile::{Profile, Provenance, Statistics, Timings};
 use crate::view::{FragmentCounts, Mask, Overlay, Surface};
 
@@ -18,6 +19,8 @@ pub struct Outcome {
     pub surface_mesh: Mesh,
     /// The statistics of counting, if wanted.
     pub statistics: Option<Statistics>,
+    /// What was noted beside the site's own notes.
+    pub notes: Vec<Message>,
     /// The stages `prepare` and `shadows`.
     pub timings: Timings,
 }

@@ -2,7 +2,7 @@
 
 use super::again::persist;
 use super::chooser::opened;
-use super::event::note_instants_alone;
+use super::event::{gather, note_instants_alone};
 use super::gaps::Gaps;
 use super::patch_sum::PatchSum;
 use super::{Event, OnEvent, Stopwatch, StudyError, day_and_night, fingerprint, note_models, tell};
@@ -10,7 +10,7 @@ use crate::choice::{Engine, Method, Misfit, Settings, Subject};
 use crate::gpu::Gpu;
 use crate::mesh::Mesh;
 use crate::mesh::patches::{MOST_TEXELS, Patches};
-use crate::message::{message, setting};
+use crate::message::{Message, message, setting};
 use crate::profile::{Provenance, Timings, Unfinished};
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::soft_texture::{Choice, Fill, Painter, PatchJudgements, SoftTexture};
@@ -35,6 +35,8 @@ pub struct PatchOutcome {
     pub drawn: Provenance,
     /// The graphics adapter's memory that was used, bytes; 0 without an adapter.
     pub gpu_bytes: u64,
+    /// What was noted beside [`Site::notes`].
+    pub notes: Vec<Message>,
     /// The stages `prepare` and `shadows`.
     pub timings: Timings,
 }
@@ -74,16 +76,22 @@ pub(crate) fn patches_kept(
         return Err(StudyError::TooLong { day_secs, most_secs });
     }
     note_models(&site.notes, on_event)?;
+    let mut notes = Vec::new();
+    let hear: &mut OnEvent<'_> = &mut |event| {
+        gather(&event, &site.notes, &mut notes);
+        on_event(event)
+    };
     let choice = choice(site)?;
     let mut patches = Patches::of(&site.mesh, &site.receives, cell, MOST_TEXELS);
     patches.leave_out_shared(&site.mesh, &site.casts, &site.receives);
     let patches = Arc::new(patches);
-    note_patches(&patches, on_event)?;
-    note_instants_alone(site, resolution_secs(site), on_event)?;
-    persist(site, true, on_event, &mut |site, gpu, on_event| {
+    note_patches(&patches, hear)?;
+    note_instants_alone(site, resolution_secs(site), hear)?;
+    let outcome = persist(site, true, hear, &mut |site, gpu, on_event| {
         let painter = painter(gpu, site, choice, on_event)?;
         light(site, choice, &patches, painter, keep_every, watch.clone(), on_event)
-    })
+    })?;
+    Ok(PatchOutcome { notes, ..outcome })
 }
 
 /// Lets the sun fall on the patches, by one machine.
@@ -111,7 +119,8 @@ fn light(
 
     let samples = site.settings.sun_samples.unwrap_or(1);
     let hours = PatchHours { lit, samples, day_secs, night_secs };
-    Ok(PatchOutcome { patches: Arc::clone(patches), hours, judged, drawn, gpu_bytes, timings: watch.stages })
+    let (patches, timings) = (Arc::clone(patches), watch.stages);
+    Ok(PatchOutcome { patches, hours, judged, drawn, gpu_bytes, notes: Vec::new(), timings })
 }
 
 /// How what is done is kept.

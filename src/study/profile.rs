@@ -2,14 +2,14 @@
 
 use super::again::persist;
 use super::chooser::{choose, counting, not_patches};
-use super::event::{note_instants_alone, note_tiles};
+use super::event::{gather, note_instants_alone, note_tiles};
 use super::tile_sum::TileSum;
 use super::tiled_study::TiledStudy;
 use super::{CountingPurpose, Event, OnEvent, Outcome, SiteView, Stopwatch, StudyError, Wants};
 use super::{day_and_night, note_models, subject_of, tell, tiles};
 use crate::gpu::Gpu;
 use crate::mesh::Mesh;
-use crate::message::{Field, aside, message};
+use crate::message::{Field, Message, aside, message};
 use crate::profile::{Profile, Provenance, Shaded, Statistics, Timings, Unfinished};
 use crate::shadow::{Technique, plan_surface};
 use crate::site::Site;
@@ -33,6 +33,8 @@ pub struct TiledOutcome {
     pub surface_mesh: Mesh,
     /// The statistics of counting, if wanted.
     pub statistics: Option<Statistics>,
+    /// What was noted beside [`Site::notes`].
+    pub notes: Vec<Message>,
     /// The stages `prepare` and `shadows`.
     pub timings: Timings,
 }
@@ -55,9 +57,9 @@ pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Out
         on_event(event)
     })?;
     let TiledOutcome { drawn, day_and_night_secs: (day_secs, night_secs), .. } = worked;
-    let TiledOutcome { surface, surface_mesh, statistics, timings, .. } = worked;
+    let TiledOutcome { surface, surface_mesh, statistics, notes, timings, .. } = worked;
     let profile = Profile { grid: site.grid, shaded: Arc::unwrap_or_clone(whole), day_secs, night_secs };
-    Ok(Outcome { profile, drawn, surface, surface_mesh, statistics, timings })
+    Ok(Outcome { profile, drawn, surface, surface_mesh, statistics, notes, timings })
 }
 
 /// The sums of a whole plan, with a tile's put in their place. An empty whole has no sums yet.
@@ -82,7 +84,14 @@ impl<'a> TiledStudy<'a> {
     pub fn new(site: &'a Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<TiledStudy<'a>, StudyError> {
         not_patches(site)?;
         note_models(&site.notes, on_event)?;
-        TiledStudy::of(None, site, wants, on_event)
+        let mut notes = Vec::new();
+        let study = TiledStudy::of(None, site, wants, &mut |event| {
+            gather(&event, &site.notes, &mut notes);
+            on_event(event)
+        })?;
+        // in how many parts it is done changes no answer
+        note_tiles(&study.tiles, on_event)?;
+        Ok(TiledStudy { notes, ..study })
     }
 
     fn of(
@@ -99,9 +108,8 @@ impl<'a> TiledStudy<'a> {
         };
         let tiles = tiles::of(site, &machine, wants, day_and_night(&site.track).0)?;
         check_tiles(&tiles, wants)?;
-        note_tiles(&tiles, on_event)?;
         note_instants_alone(site, machine.drawn_over(site, subject_of(site, &view)).resolution_secs, on_event)?;
-        Ok(TiledStudy { site, wants: wants.clone(), machine, tiles, number: OnceCell::new(), watch })
+        Ok(TiledStudy { site, wants: wants.clone(), machine, tiles, number: OnceCell::new(), notes: Vec::new(), watch })
     }
 }
 
@@ -120,9 +128,14 @@ pub fn in_tiles(
     let (site, wants) = (tiled.site, tiled.wants.clone());
     // which study it is, where what is done of it is kept
     let number = wants.keep_every.map(|_| tiled.number());
+    let mut notes = tiled.notes.clone();
     let mut at_hand = Some((tiled, begun));
+    let hear: &mut OnEvent<'_> = &mut |event| {
+        gather(&event, &site.notes, &mut notes);
+        on_event(event)
+    };
     // only an adapter reports what counting takes
-    persist(site, !wants.statistics, on_event, &mut |again, gpu, on_event| {
+    let worked = persist(site, !wants.statistics, hear, &mut |again, gpu, on_event| {
         if let Some((tiled, begun)) = at_hand.take() {
             return once(tiled, begun, on_event);
         }
@@ -135,7 +148,8 @@ pub fn in_tiles(
             tiled.wants.keep_every = None;
         }
         once(tiled, begun.into_inner(), on_event)
-    })
+    })?;
+    Ok(TiledOutcome { notes, ..worked })
 }
 
 /// As [`in_tiles`], on one machine.
@@ -192,6 +206,7 @@ fn once(
         surface,
         surface_mesh: look.surface_mesh(),
         statistics,
+        notes: Vec::new(),
         timings: watch.stages,
     })
 }

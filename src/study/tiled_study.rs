@@ -3,6 +3,7 @@
 use super::machine::Machine;
 use super::tile_sum::TileSum;
 use super::{SiteView, Stopwatch, StudyError, Wants, fingerprint, subject_of};
+use crate::message::Message;
 use crate::profile::{Provenance, Shaded, Unfinished};
 use crate::site::Site;
 use crate::sun;
@@ -18,6 +19,8 @@ pub struct TiledStudy<'a> {
     pub(super) machine: Machine,
     pub(super) tiles: Vec<Tile>,
     pub(super) number: OnceCell<u64>,
+    /// What was noted while it was prepared, beside the site's own notes.
+    pub(super) notes: Vec<Message>,
     pub(super) watch: Stopwatch,
 }
 

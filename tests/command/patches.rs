@@ -249,3 +249,28 @@ fn what_patches_cannot_have_is_told() {
     fails(path, "profile . --receivers surfaces", 1, &["receives"]);
     assert!(!path.join("out").exists() || names(path.join("out")).is_empty());
 }
+
+/// A single sheet has no outer side: the report has that note, too.
+#[test]
+fn what_a_study_notes_stands_in_its_report() {
+    let folder = site();
+    std::fs::write(folder.path().join("sheet.obj"), "v 0 0 0\nv 10 0 0\nv 10 0 6\nv 0 0 6\nf 1 2 3 4\n").unwrap();
+    let text = std::fs::read_to_string(folder.path().join("site.toml")).unwrap();
+    std::fs::write(folder.path().join("site.toml"), text.replace("tower.glb\"", "sheet.obj\"\nup = \"z\"")).unwrap();
+    let has = |command: &str, words: &str| {
+        let report = json(&done(folder.path(), &format!("{command} --engine cpu --json")));
+        let notes = report["notes"].as_array().unwrap();
+        assert_eq!(
+            notes.iter().filter(|note| note.as_str().unwrap().contains(words)).count(),
+            1,
+            "{command}: {report}"
+        );
+    };
+    has("profile . --receivers surfaces", "of 1 of 1 patches (60 m²) nothing tells the outer side");
+    // a disc's changes of light are not found
+    let soft = "--size 20 --technique ray-cast --sun-samples 2";
+    for command in ["profile .", "compare . ."] {
+        has(&format!("{command} {soft}"), "hours are summed of the instants alone");
+    }
+    has("shadow . --at 2026-09-18T01:00 --size 20", "night: the sun is");
+}

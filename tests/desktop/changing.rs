@@ -183,3 +183,24 @@ fn a_unit_and_an_axis_are_mended_by_a_button() {
     }
     harness.get_by_label_contains("looks as if it were in millimetres");
 }
+
+/// The panel has the scale of a single model; a note on one of several names the site file's key.
+#[test]
+fn notes_name_no_label_that_is_not_there() {
+    let (folder, site) = small_site();
+    let tower = crate::command::units::blocks(&[([-5000.0, 0.0, -5000.0], [5000.0, 30_000.0, 5000.0])]);
+    std::fs::write(folder.path().join("tower.glb"), tower.glb()).unwrap();
+    // its cells would be too many for what is so large
+    let text = std::fs::read_to_string(&site).unwrap().replace("[plan]\ncell = 2.0\n", "");
+    assert!(!text.contains("[plan]"));
+    let alone = folder.path().join("alone.toml");
+    std::fs::write(&alone, text.replace("works.glb", "tower.glb")).unwrap();
+    window(Some(&alone)).get_by_label_contains("write 0.001 for \"scale\" under Place");
+    std::fs::write(&site, text.replace("[study]", "[[model]]\npath = \"tower.glb\"\n[study]")).unwrap();
+    let mut harness = window(Some(&site));
+    harness.get_by_label_contains("write scale = 0.001 under [[model]]");
+    assert!(harness.query_by_label_contains("\"scale\" under Place").is_none());
+    click(&mut harness, "Set scale = 0.001 for tower.glb");
+    settle(&mut harness);
+    assert_eq!(harness.state().site_file().model[1].scale, Some(0.001));
+}

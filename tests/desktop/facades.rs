@@ -136,3 +136,24 @@ fn hours_on_facades_are_the_engines() {
     settle(&mut harness);
     assert!(harness.query_by_label("Show the hours").is_none(), "the hours are of other faces");
 }
+
+/// What the command notes of a study stands in the panel, as long as its hours do.
+#[test]
+fn notes_of_a_study_are_told() {
+    let (folder, site) = small_site();
+    std::fs::write(folder.path().join("sheet.obj"), "v 0 0 0\nv 10 0 0\nv 10 0 6\nv 0 0 6\nf 1 2 3 4\n").unwrap();
+    let text = std::fs::read_to_string(&site).unwrap().replace("works.glb\"", "sheet.obj\"\nup = \"z\"");
+    std::fs::write(&site, text).unwrap();
+    let mut harness = window(Some(&site));
+    let note = "of 1 of 1 patches (60 m²) nothing tells the outer side";
+    assert!(harness.query_by_label_contains(note).is_none());
+    click(&mut harness, "On façades, too");
+    click(&mut harness, "Find the hours");
+    settle(&mut harness);
+    assert_eq!(harness.query_all_by_label_contains(note).count(), 1);
+    // hours on the plan have no such note
+    click(&mut harness, "On façades, too");
+    click(&mut harness, "Find the hours");
+    settle(&mut harness);
+    assert!(harness.query_by_label_contains(note).is_none());
+}

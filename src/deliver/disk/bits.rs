@@ -247,6 +247,35 @@ impl BitsFile {
         synced.map_err(|error| file::failed(&self.path, "writing the file beside it", error))
     }
 
+    /// Reads the complete file back, the shadows at the instants with a sun in the order of time, and closes it.
+    ///
+    /// # Errors
+    /// [`ExportError::Write`], [`ExportError::Read`] where the file system refuses.
+    pub(crate) fn shadows(mut self) -> Result<Vec<Bits>, ExportError> {
+        if let Some(mut file) = self.file.take() {
+            let flushed = file.flush();
+            flushed.map_err(|error| file::failed(&self.path, "writing the file beside it", error))?;
+        }
+        // nights alone made no file
+        if self.count == 0 {
+            return Ok(Vec::new());
+        }
+        let Grid { width, height, .. } = self.grid;
+        let read = || -> io::Result<Vec<Bits>> {
+            let mut file = File::open(&self.unfinished)?;
+            file.seek(SeekFrom::Start(self.size_after(0)))?;
+            let mut bytes = vec![0; self.bytes_a_row() as usize * height as usize];
+            let mut shadow = || -> io::Result<Bits> {
+                file.read_exact(&mut bytes)?;
+                let rows = bytes.chunks(self.bytes_a_row() as usize);
+                let words = rows.flat_map(|row| row.chunks(8).map(word)).collect();
+                Ok(Bits { width, height, words })
+            };
+            (0..self.count).map(|_| shadow()).collect()
+        };
+        read().map_err(|source| ExportError::Read { path: self.unfinished.clone(), source })
+    }
+
     /// Moves the complete file to its final path.
     ///
     /// # Errors
@@ -266,4 +295,9 @@ impl BitsFile {
         let placed = file::rename(&self.unfinished, &self.path);
         placed.map_err(|error| file::failed(&self.path, "putting it in place", error))
     }
+}
+
+/// Up to eight bytes of a row as a word of [`Bits`].
+fn word(bytes: &[u8]) -> u64 {
+    bytes.iter().rev().fold(0, |word, byte| word << 8 | u64::from(*byte))
 }

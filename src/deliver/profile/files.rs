@@ -6,7 +6,8 @@ use crate::deliver::DeliverError;
 use crate::deliver::disk::bits;
 use crate::deliver::parts::{DrawnView, figure_context, report_context};
 use crate::deliver::sink::{OpenSink, WholeFile};
-use crate::export::{ExportError, figure, raster, report};
+use crate::export::report::{self, ReportContext};
+use crate::export::{ExportError, figure, raster};
 use crate::profile::{Profile, Shaded, Timings};
 use crate::shadow::PlanSurface;
 use crate::site::Site;
@@ -63,7 +64,8 @@ pub(super) fn make(
         stage("lines")?;
     }
     let timings = &watch.timings();
-    let told = report_context(site, site.receivers, drawn, timings, hours.statistics.as_ref());
+    let (notes, statistics) = (&[&site.notes[..], &hours.notes].concat(), hours.statistics.as_ref());
+    let told = ReportContext { notes, ..report_context(site, site.receivers, drawn, timings, statistics) };
     let report = report::profile_json(profile, &site.place, &site.track, &told)?;
     // all are there before the first is put in its place
     let mut ready = files.into_iter().map(|file| open.ready(file)).collect::<Result<Vec<_>, _>>()?;

@@ -1,12 +1,14 @@
 //! Finds the hours of shadow on a plan.
 
 use super::ProfileRequest;
-use super::keeping::{Beside, StudyStore};
+use super::keeping::StudyStore;
 use super::sums::Sums;
 use crate::deliver::DeliverError;
+use crate::deliver::shelf::Beside;
 use crate::export::ExportError;
 use crate::export::figure::Outline;
 use crate::mesh::Mesh;
+use crate::message::Message;
 use crate::profile::{Profile, Provenance, Shaded, ShadedCells, Statistics, Timings};
 use crate::site::Site;
 use crate::study::{self, OnEvent, Outcome, TiledOutcome, TiledStudy};
@@ -24,6 +26,8 @@ pub struct Hours {
     pub surface_mesh: Mesh,
     /// The statistics of counting, if they were requested.
     pub statistics: Option<Statistics>,
+    /// What the study noted beside [`Site::notes`].
+    pub notes: Vec<Message>,
     /// How long the stages took.
     pub timings: Timings,
     /// The shadow at each instant with a sun, if that was requested and is in memory.
@@ -57,12 +61,12 @@ pub(in crate::deliver) fn find<'a>(
     let worked = study::in_tiles(study, begun, &mut |event| keeping.hear(event, site, on_event));
     let worked = keeping.take_fault().map_or(worked.map_err(DeliverError::from), Err);
     let worked = worked.inspect_err(|_| keeping.leave(on_event))?;
-    let TiledOutcome { drawn, day_and_night_secs: (day_secs, night_secs), surface_mesh, statistics, timings, .. } =
-        worked;
+    let TiledOutcome { drawn, day_and_night_secs: (day_secs, night_secs), surface_mesh, .. } = worked;
+    let TiledOutcome { statistics, notes, timings, .. } = worked;
     let shaded = std::mem::replace(&mut keeping.sums, Sums::Memory(Arc::default()));
     let profile = Profile { grid: site.grid, shaded, day_secs, night_secs };
     let outlines = std::mem::take(&mut keeping.outlines);
-    Ok((Hours { profile, drawn, surface_mesh, statistics, timings, outlines }, keeping))
+    Ok((Hours { profile, drawn, surface_mesh, statistics, notes, timings, outlines }, keeping))
 }
 
 impl Hours {
@@ -79,11 +83,11 @@ impl Hours {
     /// # Errors
     /// Where the sums lie in a file that cannot be read.
     pub(crate) fn into_outcome(self) -> Result<Outcome, ExportError> {
-        let Hours { profile, drawn, surface_mesh, statistics, timings, .. } = self;
+        let Hours { profile, drawn, surface_mesh, statistics, notes, timings, .. } = self;
         let Profile { grid, shaded, day_secs, night_secs } = profile;
         let shaded = Arc::unwrap_or_clone(shaded.in_memory()?);
         let profile = Profile { grid, shaded, day_secs, night_secs };
-        Ok(Outcome { profile, drawn, surface: None, surface_mesh, statistics, timings })
+        Ok(Outcome { profile, drawn, surface: None, surface_mesh, statistics, notes, timings })
     }
 
     /// The same with the sums in memory.

@@ -6,7 +6,7 @@ use crate::deliver::disk::bits::BitsFile;
 use crate::deliver::disk::sums::SumsFile;
 use crate::deliver::disk::unfinished::{self, Checks, StoredStudy};
 use crate::deliver::parts::note;
-use crate::deliver::shelf;
+use crate::deliver::shelf::{self, Beside};
 use crate::deliver::{DeliverError, NamedFile};
 use crate::export::figure::Outline;
 use crate::export::{ExportError, bytes, checksum, file, raster};
@@ -51,15 +51,6 @@ pub(in crate::deliver) struct StudyStore<'a> {
     fault: Option<DeliverError>,
 }
 
-/// The stopped studies in the folder that belong to the same request, and are not mentioned to the user.
-#[derive(Clone, Copy)]
-pub(in crate::deliver) enum Beside<'a> {
-    /// These.
-    Studies(&'a [u64]),
-    /// One that is not known yet: so none is spoken of.
-    Unknown,
-}
-
 impl StudyStore<'_> {
     pub(super) fn new<'a>(
         site: &Site,
@@ -96,12 +87,12 @@ impl StudyStore<'_> {
     /// Says what else lies in the folder, and what will.
     pub(super) fn look_around(&self, beside: Beside<'_>, on_event: &mut OnEvent<'_>) -> Result<(), DeliverError> {
         let Some(folder) = self.folder else { return Ok(()) };
-        if let Beside::Studies(others) = beside {
-            note(unfinished::tidy(folder, &[others, &[self.study]].concat()), on_event)?;
-        }
+        beside.tidy(folder, self.study, on_event)?;
         if let Some(bits) = &self.bits {
             bits.check_room()?;
-            note(Some(format!("{} will take {}", bits.path().display(), bytes(bits.size()))), on_event)?;
+            let is_to_stay = !matches!(beside, Beside::Shelf);
+            let will_take = || format!("{} will take {}", bits.path().display(), bytes(bits.size()));
+            note(is_to_stay.then(will_take), on_event)?;
         }
         Ok(())
     }

@@ -14,16 +14,18 @@ pub use request::ProfileRequest;
 pub use sums::Sums;
 
 use super::parts::{note, note_letters};
-use super::shelf;
+use super::shelf::{self, Beside};
 use super::{DeliverError, Folder, Sink, WrittenFiles};
+use crate::export::figure::Outline;
 use crate::profile::{Provenance, Statistics};
 use crate::site::Site;
 use crate::study::{Event, OnEvent, tell};
+use crate::view::Bits;
 use files::Pieces;
 use request::mask_path;
 
 pub(super) use hours::find as find_kept;
-pub(super) use keeping::{Beside, StudyStore};
+pub(super) use keeping::StudyStore;
 
 /// The result of a profile.
 #[derive(Clone, Debug)]
@@ -91,7 +93,7 @@ pub fn profile(
 /// Finds hours that are to be shown, all of them in memory; with bits, each instant's shadow too.
 ///
 /// If a study is stopped, it is kept in `shelf` (which keeps the newest ones), and continues when the same request is made
-/// again. A study with bits is not kept, and nothing is kept while another study works there.
+/// again. Nothing is kept while another study works there.
 ///
 /// # Errors
 /// As [`profile()`].
@@ -101,13 +103,22 @@ pub fn find_hours(
     shelf: Option<Folder<'_>>,
     on_event: &mut OnEvent<'_>,
 ) -> Result<Hours, DeliverError> {
-    shelf::find(shelf.filter(|_| !asked.bits), on_event, |folder, on_event| {
-        let (hours, keeping) = hours::find(site, asked, folder, Beside::Studies(&[]), on_event)?;
-        let hours = hours.in_memory()?;
+    shelf::find(shelf, on_event, |folder, on_event| {
+        let (hours, mut keeping) = hours::find(site, asked, folder, Beside::Shelf, on_event)?;
+        let mut hours = hours.in_memory()?;
+        if let Some(bits) = keeping.bits.take() {
+            hours.outlines = outlines_of(site, bits.shadows()?);
+        }
         // what stays there is another time's to remove
         let _ = keeping.finish();
         Ok(hours)
     })
+}
+
+/// The shadows at the instants with a sun, in the order of time, each with its instant.
+fn outlines_of(site: &Site, shadows: Vec<Bits>) -> Vec<Outline> {
+    let with_sun = site.track.instants.iter().enumerate().filter(|(_, instant)| !instant.night);
+    with_sun.zip(shadows).map(|((index, _), shadow)| Outline { index, shadow }).collect()
 }
 
 /// Writes the requested files of hours that were found. The request's stopwatch runs on from [`Hours::timings`].

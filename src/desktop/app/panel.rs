@@ -11,7 +11,7 @@ use crate::desktop::state::bare_model::NORTH;
 use crate::desktop::state::eye::Stand;
 use crate::desktop::state::technique;
 use crate::desktop::state::unit::Unit;
-use crate::desktop::state::words::PanelWords;
+use crate::desktop::state::words;
 use crate::export::figure::{self, Diagram};
 use crate::message::Message;
 use crate::site::file::{ModelTable, PlaceTable, Text};
@@ -50,18 +50,24 @@ pub(in crate::desktop) fn show(app: &mut App, ui: &mut Ui) {
     });
 }
 
-/// The command's notes on the models, also on those before if two states are compared.
+/// The command's notes on the models, also on those before if two states are compared, and on what was found.
 fn notes(app: &App) -> Vec<&Message> {
     let Some(open) = &app.open else { return Vec::new() };
-    let notes = &open.project.site.notes;
-    let before =
-        open.result.as_ref().and_then(|result| result.change()).map_or(&[][..], |change| change.notes_before());
-    notes.iter().chain(before.iter().filter(|note| !notes.contains(note))).collect()
+    let mut notes: Vec<&Message> = open.project.site.notes.iter().collect();
+    let Some(result) = &open.result else { return notes };
+    let before = result.change().map_or(&[][..], |change| change.notes_before());
+    for note in before.iter().chain(&result.notes) {
+        if !notes.contains(&note) {
+            notes.push(note);
+        }
+    }
+    notes
 }
 
 /// What the user should know of the models, with the keys that would correct what looks wrong.
 fn section_of_notes(app: &mut App, ui: &mut Ui) {
-    let notes: Vec<String> = notes(app).into_iter().map(|note| note.in_words(&PanelWords)).collect();
+    let words = words::of_panel(app.settings.site.model.len());
+    let notes: Vec<String> = notes(app).into_iter().map(|note| note.in_words(words)).collect();
     let Some(open) = app.open.as_ref().filter(|_| !notes.is_empty()) else { return };
     let models = &mut app.settings.site.model;
     let are_several = models.len() > 1;

@@ -64,14 +64,16 @@ impl App {
 
     fn receive_study(&mut self) {
         let Some(open) = &mut self.open else { return };
-        let Some(result) = open.adding.as_ref().and_then(Work::done) else { return };
+        let Some(adding) = &open.adding else { return };
+        let Some(result) = adding.done() else { return };
+        let notes = adding.notes();
         open.adding = None;
         match result {
             // colours of faces are those of the very model that they were found on
             Ok(result) if !result.lies_on(&open.project.site) => {
                 self.notice = Some("The model has changed since: find the hours again".to_owned());
             }
-            Ok(result) => self.lay(result),
+            Ok(result) => self.lay(result.noted(notes)),
             Err(fault) => self.fault = Some(fault),
         }
     }

@@ -41,13 +41,14 @@ impl ShadowHours {
     /// The hours as the outcome of a study of the plan.
     pub(in crate::desktop) fn outcome(&self) -> Outcome {
         let Hours { profile: Profile { grid, day_secs, night_secs, .. }, .. } = self.hours;
-        let Hours { drawn, surface_mesh, statistics, timings, .. } = &self.hours;
+        let Hours { drawn, surface_mesh, statistics, notes, timings, .. } = &self.hours;
         Outcome {
             profile: Profile { grid, shaded: Shaded::clone(&self.shaded), day_secs, night_secs },
             drawn: drawn.clone(),
             surface: None,
             surface_mesh: surface_mesh.clone(),
             statistics: *statistics,
+            notes: notes.clone(),
             timings: timings.clone(),
         }
     }

@@ -15,6 +15,7 @@ use crate::desktop::state::project::Project;
 use crate::desktop::state::settings::WindowSettings;
 use crate::desktop::state::unit::Unit;
 use crate::export::figure::scale::Rgb;
+use crate::message::Message;
 use crate::picture::Picture;
 use crate::shadow::ShadowError;
 use crate::site::Site;
@@ -38,6 +39,8 @@ pub(in crate::desktop) struct StudyResult {
     pub(in crate::desktop) written: SiteFile,
     /// The mark of its models.
     pub(in crate::desktop) mark: u64,
+    /// What was noted while it was found, beside what is known of its site.
+    pub(in crate::desktop) notes: Vec<Message>,
     /// The findings.
     pub(in crate::desktop) found: Findings,
 }
@@ -53,6 +56,14 @@ pub(in crate::desktop) enum Findings {
 }
 
 impl StudyResult {
+    /// The same with what was noted while it was found: of the notes on the models only those on a state before.
+    pub(in crate::desktop) fn noted(mut self, mut notes: Vec<Message>) -> StudyResult {
+        let after = self.change().map_or(&[][..], |change| &change.pair.after.notes);
+        notes.retain(|note| !self.site.notes.contains(note) && !after.contains(note));
+        self.notes = notes;
+        self
+    }
+
     /// Lays the findings over a picture of the site, or of its visible part.
     ///
     /// # Errors

@@ -7,6 +7,15 @@ use crate::message::{Field, Words};
 #[derive(Clone, Copy, Debug)]
 pub(in crate::desktop) struct PanelWords;
 
+/// The same with several models: the panel sets none's north and scale, and keys of models are keys.
+#[derive(Clone, Copy, Debug)]
+struct SeveralModelsWords;
+
+/// The words of what is set in the panel of a site with so many models.
+pub(in crate::desktop) fn of_panel(models: usize) -> &'static dyn Words {
+    if models > 1 { &SeveralModelsWords } else { &PanelWords }
+}
+
 /// The words of what files say: keys are keys.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::desktop) struct FileWords;
@@ -63,6 +72,30 @@ impl Words for PanelWords {
             _ => return FileWords.at(file, table, key),
         };
         label.to_owned()
+    }
+}
+
+impl Words for SeveralModelsWords {
+    fn name(&self, field: Field) -> Option<&'static str> {
+        PanelWords.name(field)
+    }
+
+    fn key(&self, field: Field) -> &'static str {
+        PanelWords.key(field)
+    }
+
+    fn setting(&self, table: &str, key: &str, value: Option<&str>, written: &str) -> String {
+        match (table, key) {
+            ("[[model]]", "north" | "scale") => written.to_owned(),
+            _ => PanelWords.setting(table, key, value, written),
+        }
+    }
+
+    fn at(&self, file: &str, table: &str, key: &str) -> String {
+        match (table, key) {
+            ("[[model]]", "north" | "scale") => FileWords.at(file, table, key),
+            _ => PanelWords.at(file, table, key),
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::desktop::state::bare_model::BareModel;
 use crate::desktop::state::project::{LoadedSite, Project, complete, name_of};
 use crate::desktop::state::settings::Hidden;
-use crate::desktop::state::words::{FileWords, PanelWords};
+use crate::desktop::state::words::{self, FileWords};
 use crate::export::bytes;
 use crate::export::figure::component_colours;
 use crate::fault;
@@ -193,7 +193,7 @@ fn read(
 ) -> Result<Project, LoadError> {
     let at_hand = before.and_then(|before| before.models.as_ref()).filter(|models| models.are_those_of(&written));
     // what is set in the panel has its labels, and what a file says its keys
-    let words: &dyn Words = if before.is_some() { &PanelWords } else { &FileWords };
+    let words: &dyn Words = if before.is_some() { words::of_panel(written.site.model.len()) } else { &FileWords };
     let mut models = None;
     let site = Site::with_models(&written, &Overrides::default(), || {
         let read = at_hand.map_or_else(|| read_models(&written, progress), |models| Ok(models.clone()))?;

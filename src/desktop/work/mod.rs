@@ -7,7 +7,8 @@ pub(in crate::desktop) mod studies;
 
 use crate::desktop::state::words::{FileWords, PanelWords};
 use crate::fault;
-use crate::study::{Event, OnEvent};
+use crate::message::Message;
+use crate::study::{Event, OnEvent, gather};
 use eframe::egui;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -21,6 +22,8 @@ pub(in crate::desktop) struct Work<T> {
     progress: Arc<Mutex<(usize, usize)>>,
     /// Why it is done again, until that is taken.
     note: Arc<Mutex<Option<String>>>,
+    /// All that was noted so far, each note once.
+    notes: Arc<Mutex<Vec<Message>>>,
     cancelled: Arc<AtomicBool>,
     result: mpsc::Receiver<Result<T, String>>,
 }
@@ -36,6 +39,8 @@ impl<T: Send + 'static> Work<T> {
         let cancelled = Arc::new(AtomicBool::new(false));
         let note = Arc::new(Mutex::new(None));
         let (done_so_far, noted, heard) = (Arc::clone(&progress), Arc::clone(&note), Arc::clone(&cancelled));
+        let notes = Arc::new(Mutex::new(Vec::new()));
+        let gathered = Arc::clone(&notes);
         std::thread::spawn(move || {
             let mut last = None;
             let answer = work(&mut |event| {
@@ -45,7 +50,12 @@ impl<T: Send + 'static> Work<T> {
                             *done_so_far = (index + 1, *count);
                         }
                     }
-                    Event::Note(note) => last = Some(note.in_words(&PanelWords)),
+                    Event::Note(note) => {
+                        last = Some(note.in_words(&PanelWords));
+                        if let Ok(mut gathered) = gathered.lock() {
+                            gather(&event, &[], &mut gathered);
+                        }
+                    }
                     // the note before it says why
                     Event::StartsOver => {
                         if let Ok(mut noted) = noted.lock() {
@@ -61,7 +71,7 @@ impl<T: Send + 'static> Work<T> {
             let _ = tell.send(answer.map_err(|error| fault::line(error.as_ref(), &FileWords)));
             context.request_repaint();
         });
-        Work { progress, note, cancelled, result }
+        Work { progress, note, notes, cancelled, result }
     }
 
     /// How much is done, of how much.
@@ -72,6 +82,11 @@ impl<T: Send + 'static> Work<T> {
     /// Why it is done again, once where it is.
     pub(in crate::desktop) fn note(&self) -> Option<String> {
         self.note.lock().ok().and_then(|mut note| note.take())
+    }
+
+    /// All that was noted so far.
+    pub(in crate::desktop) fn notes(&self) -> Vec<Message> {
+        self.notes.lock().map(|notes| notes.clone()).unwrap_or_default()
     }
 
     /// What came of it, once it is done.

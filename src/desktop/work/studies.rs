@@ -50,7 +50,7 @@ pub(in crate::desktop) fn hours(project: &Project, order: StudyOrder) -> Work<St
         let request = ProfileRequest { bits, ..ProfileRequest::of(Stopwatch::start()) };
         let hours = find_hours(&Site { method, ..Site::clone(&site) }, &request, shelf(&studies), on_event)?;
         let found = Findings::Shadow(Box::new(ShadowHours::new(&site, hours)));
-        Ok(StudyResult { number, site, method, written, mark, found })
+        Ok(StudyResult { number, site, method, written, mark, notes: Vec::new(), found })
     })
 }
 
@@ -93,7 +93,7 @@ pub(in crate::desktop) fn facades(project: &Project, order: StudyOrder) -> Work<
         let pages = atlas.colours(&answer.bands(), outcome.hours.samples);
         let legend = figure::patches_legend(&answer);
         let found = Findings::Facades(Box::new(Facades { outcome, atlas, pages, legend }));
-        Ok(StudyResult { number, site, method, written, mark, found })
+        Ok(StudyResult { number, site, method, written, mark, notes: Vec::new(), found })
     })
 }
 
@@ -143,7 +143,7 @@ pub(in crate::desktop) fn change(
             site.mesh = site.mesh.of_components(&[]);
         }
         let found = Findings::Change(Box::new(ChangeResult { before, models, pair, outcome, timings, colours }));
-        Ok(StudyResult { number, site, method, written, mark, found })
+        Ok(StudyResult { number, site, method, written, mark, notes: Vec::new(), found })
     })
 }
 
