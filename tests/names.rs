@@ -194,7 +194,7 @@ fn shaded_m2_hours(model: &Model) -> f64 {
     std::fs::write(folder.path().join("tower.glb"), model.glb()).unwrap();
     let site = "[place]\nlatitude = 48.2\nlongitude = 16.37\n[[model]]\npath = \"tower.glb\"\n[ground]\nlevel = 0.0\n\
                 [study]\ndate = 2026-03-21\nfrom = \"9:00\"\nto = \"15:00\"\nstep = \"1h\"\n\
-                [plan]\nregion = [-70, -10, 70, 70]\ncell = 0.5\n";
+                resolution = \"step\"\n[plan]\nregion = [-70, -10, 70, 70]\ncell = 0.5\n";
     std::fs::write(folder.path().join("site.toml"), site).unwrap();
     let (receivers, engine) = (Some(Receivers::Ground), Some(Engine::Cpu));
     let site = Site::load(folder.path(), &Overrides { receivers, engine, ..Overrides::default() }).unwrap();

@@ -25,10 +25,11 @@ fn vienna() -> Place {
     Place::new("Vienna", 48.2082, 16.3738, 170.0, Some("Europe/Vienna")).unwrap()
 }
 
+/// Instants alone: sums are held against masks.
 fn track() -> SunTrack {
     let date = NaiveDate::from_ymd_opt(2026, 3, 21);
     let window = Window { date, from: "6:30".parse().unwrap(), to: "18:00".parse().unwrap(), step_secs: 2400 };
-    SunTrack::window(&vienna(), &window, true).unwrap()
+    SunTrack { resolution_secs: 0, ..SunTrack::window(&vienna(), &window, true).unwrap() }
 }
 
 /// A sheet over a square of such a half side, as high as is said at its corners.

@@ -278,6 +278,6 @@ fn steps_are_read_as_people_write_them() {
         assert_eq!(step(text), Err(TypedError::Step(text.to_owned())), "{text}");
     }
     assert_eq!(step("0 min"), Err(TypedError::Sun(SunError::ZeroStep)));
-    assert_eq!(["1 min", " Step "].map(|text| resolution(text).unwrap()), ["1min", "step"]);
+    assert_eq!(["1 min", " Step "].map(|text| resolution(text).unwrap()), ["1 min", "step"]);
     assert_eq!(resolution("0s"), Err(TypedError::Resolution("0s".to_owned())));
 }

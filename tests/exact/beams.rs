@@ -50,7 +50,7 @@ fn beams_on_the_sites_agree_with_plain_rays() {
                 found = [found[0] + hit, found[1] + expected.len() - hit];
             }
         }
-        assert!(found[0] > 10_000 && found[1] > 10_000, "{name}: {found:?}");
+        assert!(found[0] > 1_000 && found[1] > 10_000, "{name}: {found:?}");
     }
 }
 

@@ -45,6 +45,8 @@ fn profile_json_is_the_contract() {
         "silhouette",
         "engine",
         "adapter",
+        "resolution_secs",
+        "between_instants",
         "refraction",
         "delta_t_secs",
         "instants",

@@ -153,7 +153,7 @@ fn points_of_a_table_are_probed() {
     }
     fails(path, "probe . --points none.csv", 1, &["none.csv"]);
     fails(path, "probe . --points free.csv --point 1,2,3", 2, &["--points", "--point", "leave one"]);
-    fails(path, "probe . --points free.csv --totals points.csv", 2, &["points.csv"]);
+    fails(path, "probe . --points free.csv --totals free.csv", 2, &["free.csv"]);
 }
 
 #[test]

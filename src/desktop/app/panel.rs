@@ -349,7 +349,7 @@ fn times_of_change(ui: &mut Ui, typed: &mut TypedText, written: &mut Option<Stri
         }
         match found_secs {
             Some(0) => drop(ui.weak("the instants alone")),
-            Some(secs) => drop(ui.weak(format!("changes found to {}", figure::duration(secs)))),
+            Some(secs) => drop(ui.weak(format!("found to {}", figure::duration(secs)))),
             None => {}
         }
     });
