@@ -5,7 +5,7 @@ use super::chooser::opened;
 use super::event::note_instants_alone;
 use super::gaps::Gaps;
 use super::patch_sum::PatchSum;
-use super::{Event, OnEvent, Stopwatch, StudyError, day_and_night, fingerprint, note_models, tell};
+use super::{Event, OnEvent, Stopwatch, StudyError, day_and_night, fingerprint, note_site, tell};
 use crate::choice::{Engine, Method, Misfit, Settings, Subject};
 use crate::gpu::Gpu;
 use crate::mesh::Mesh;
@@ -73,7 +73,7 @@ pub(crate) fn patches_kept(
     if day_secs > most_secs {
         return Err(StudyError::TooLong { day_secs, most_secs });
     }
-    note_models(&site.notes, on_event)?;
+    note_site(site, on_event)?;
     let choice = choice(site)?;
     let mut patches = Patches::of(&site.mesh, &site.receives, cell, MOST_TEXELS);
     patches.leave_out_shared(&site.mesh, &site.casts, &site.receives);

@@ -6,7 +6,7 @@
 use super::again::persist;
 use super::chooser::{not_patches, opened};
 use super::machine::Machine;
-use super::{Event, OnEvent, SiteView, StudyError, day_and_night, note_models, subject_of, tell, tiles};
+use super::{Event, OnEvent, SiteView, StudyError, day_and_night, note_site, subject_of, tell, tiles};
 use crate::choice::{Engine, Method, MethodRow, Promise, Subject, TABLE, Truth};
 use crate::gpu::Gpu;
 use crate::mesh::report;
@@ -51,7 +51,7 @@ pub struct Trial {
 pub fn verify(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Verification, StudyError> {
     not_patches(site)?;
     by_day(site)?;
-    note_models(&site.notes, on_event)?;
+    note_site(site, on_event)?;
     // whoever asks wants every technique: none takes another's place
     persist(site, false, on_event, &mut |site, gpu, on_event| {
         let gpu = opened(gpu).map_err(|error| StudyError::NoVerification(error.why()))?;
