@@ -2,7 +2,7 @@
 
 use super::machine::Machine;
 use super::{Event, OnEvent, StudyError, subject_of, tell};
-use crate::choice::{Engine, Finder, Method, Receivers, Settings, Subject};
+use crate::choice::{Engine, Finder, Method, MethodRow, Receivers, Settings, Subject, TABLE, listed};
 use crate::gpu::{Gpu, GpuError};
 use crate::message::{Field, message};
 use crate::site::Site;
@@ -81,12 +81,18 @@ pub(super) fn counting(gpu: Option<&Arc<Gpu>>, site: &Site, view: &View, field: 
     if !method.row().counts || site.engine == Engine::Cpu {
         let message = message![
             "only techniques that count shadow volumes tell it, on the gpu";
-            "take ", (Field::Technique, Method::Hybrid.word()), " without ", (Field::Engine, "cpu"), ", or leave it out"
+            "take ", (Field::Technique, listed(&tellers(field), "or")), " without ", (Field::Engine, "cpu"), ", or leave it out"
         ];
         return Err(StudyError::Conflict { field, message });
     }
     method.row().check(site.finder, &site.settings, subject_of(site, view))?;
     Ok(Machine::on(opened(gpu)?, method, site))
+}
+
+/// The words of the techniques that tell what a field asks of counting.
+fn tellers(field: Field) -> Vec<&'static str> {
+    let tells = |row: &&MethodRow| if field == Field::MaskDiagram { row.shows_mask } else { row.counts };
+    TABLE.iter().filter(tells).map(|row| row.word).collect()
 }
 
 /// The stencil, whose volumes and silhouettes are asked for: on a software adapter too.

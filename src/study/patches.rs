@@ -219,7 +219,10 @@ fn choice(site: &Site) -> Result<Choice, Misfit> {
         Method::Auto => Ok(Choice::Auto),
         Method::SoftTexture => Ok(Choice::Texture),
         Method::RayCast => Ok(Choice::Rays),
-        _ => Err(Misfit::Technique { method, subject }),
+        // none of these draws patches; a technique that does has its line above
+        Method::Stencil | Method::Projected | Method::ShadowMap | Method::Hybrid | Method::Smoothie => {
+            Err(Misfit::Technique { method, subject })
+        }
     }
 }
 
