@@ -28,7 +28,7 @@ pub(super) fn choose(
     let subject = subject_of(site, view);
     let method = if site.method == Method::Auto { automatic(site, subject) } else { site.method };
     let engine = method.row().fit(site.engine, subject)?;
-    method.row().check(site.finder, &site.settings, subject)?;
+    method.row().check(site.finder, &site.settings, site.engine, subject)?;
     if method != Method::Auto {
         return Ok(match engine {
             Engine::Gpu => Machine::on(opened(gpu)?, method, site),
@@ -85,7 +85,7 @@ pub(super) fn counting(gpu: Option<&Arc<Gpu>>, site: &Site, view: &View, field: 
         ];
         return Err(StudyError::Conflict { field, message });
     }
-    method.row().check(site.finder, &site.settings, subject_of(site, view))?;
+    method.row().check(site.finder, &site.settings, site.engine, subject_of(site, view))?;
     Ok(Machine::on(opened(gpu)?, method, site))
 }
 
@@ -105,7 +105,7 @@ pub(super) fn stencil_alone(gpu: Option<&Arc<Gpu>>, site: &Site, view: &View) ->
         ];
         return Err(StudyError::Conflict { field: Field::Volumes, message });
     }
-    Method::Stencil.row().check(site.finder, &site.settings, subject_of(site, view))?;
+    Method::Stencil.row().check(site.finder, &site.settings, site.engine, subject_of(site, view))?;
     let gpu = opened(gpu).map_err(|error| StudyError::NoVolumes(error.why()))?;
     Ok(Machine::on(gpu, Method::Stencil, site))
 }

@@ -214,7 +214,7 @@ fn choice(site: &Site) -> Result<Choice, Misfit> {
     method.row().fit(site.engine, subject)?;
     // of auto's two techniques one uses as much as the other
     let row = if method == Method::Auto { Method::SoftTexture.row() } else { method.row() };
-    row.check(site.finder, &site.settings, subject)?;
+    row.check(site.finder, &site.settings, site.engine, subject)?;
     match method {
         Method::Auto => Ok(Choice::Auto),
         Method::SoftTexture => Ok(Choice::Texture),
