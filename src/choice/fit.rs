@@ -9,16 +9,16 @@ use crate::message::{Field, Message, Piece, Worded, pieces, plain_display};
 pub enum Misfit {
     /// The technique does not draw that subject on any machine.
     Technique {
-        /// Which one.
+        /// The technique.
         method: Method,
         /// What it was to draw.
         subject: Subject,
     },
     /// The technique draws that subject only on the other machine.
     Engine {
-        /// Which one.
+        /// The technique.
         method: Method,
-        /// Where it was to draw.
+        /// The machine that was asked.
         engine: Engine,
         /// What it was to draw.
         subject: Subject,
@@ -34,7 +34,7 @@ pub enum Misfit {
     },
     /// The technique cannot use the finder.
     Finder {
-        /// Which one.
+        /// The technique.
         method: Method,
     },
 }

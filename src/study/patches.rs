@@ -254,7 +254,7 @@ fn painter(
     }
 }
 
-/// Says what of the patches is not as one would think.
+/// Notes texels that are coarser than asked, areas that do not count, and patches whose outer side is not known.
 fn note_patches(patches: &Patches, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     if patches.list.is_empty() {
         return Err(StudyError::NoPatch);
@@ -279,11 +279,12 @@ fn note_patches(patches: &Patches, on_event: &mut OnEvent<'_>) -> Result<(), Stu
     }
     let two_sided = || patches.list.iter().filter(|patch| patch.two_sided);
     if two_sided().next().is_some() {
+        let count = two_sided().count();
         let note = format!(
-            "of {} of {} patches ({:.0} m²) nothing tells the outer side; they are judged on the side that faces the sun",
-            two_sided().count(),
+            "{count} of {} patches ({:.0} m²) {} no known outer side: the side that faces the sun is judged",
             patches.list.len(),
-            two_sided().map(|patch| patch.area_m2).sum::<f64>()
+            two_sided().map(|patch| patch.area_m2).sum::<f64>(),
+            if count == 1 { "has" } else { "have" }
         );
         tell(on_event, Event::Note(note.into()))?;
     }

@@ -104,7 +104,7 @@ pub fn find_hours(
     shelf::find(shelf.filter(|_| !asked.bits), on_event, |folder, on_event| {
         let (hours, keeping) = hours::find(site, asked, folder, Beside::Studies(&[]), on_event)?;
         let hours = hours.in_memory()?;
-        // what stays there is another time's to remove
+        // what cannot be removed now is removed once newer studies are kept
         let _ = keeping.finish();
         Ok(hours)
     })
