@@ -1,6 +1,9 @@
 //! The rules of `docs/architecture.md`, as far as a machine can see them: who may know whom, who may print, who may
 //! read files, how types are named, and how long files and functions may be.
 
+mod rust_text;
+
+use rust_text::TextRanges;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -135,9 +138,14 @@ const RESERVED: &[(&str, &[&str], &str)] = &[
         "only formats, site and rules read what the user wrote, export and deliver what they wrote themselves, and sun the system's rules of clocks",
     ),
     ("File::open", &["formats", "site"], "only formats and site read what the user wrote"),
-    ("\"ray-cast\"", &["choice"], "techniques are types until they are printed"),
-    ("\"shadow-map\"", &["choice"], "techniques are types until they are printed"),
-    ("\"soft-texture\"", &["choice"], "techniques are types until they are printed"),
+    // gpu and shadow name shaders and passes so
+    ("\"stencil\"", &["choice", "gpu", "shadow"], "techniques are types until they are printed"),
+    ("\"projected\"", &["choice", "gpu", "shadow"], "techniques are types until they are printed"),
+    ("\"shadow-map\"", &["choice", "gpu", "shadow"], "techniques are types until they are printed"),
+    ("\"hybrid\"", &["choice", "gpu", "shadow"], "techniques are types until they are printed"),
+    ("\"smoothie\"", &["choice", "gpu", "shadow"], "techniques are types until they are printed"),
+    ("\"soft-texture\"", &["choice", "gpu", "shadow"], "techniques are types until they are printed"),
+    ("\"ray-cast\"", &["choice", "gpu", "shadow"], "techniques are types until they are printed"),
     ("SystemTime::now", &[], "nothing reads the clock"),
     ("Utc::now", &[], "nothing reads the clock"),
     ("Local::now", &[], "nothing reads the clock"),
@@ -179,13 +187,26 @@ fn faults(path: &Path, source: &str) -> Vec<String> {
     if !WRITES_OPTIONS.contains(&module) {
         let options = code.match_indices("--").filter(|(offset, _)| is_option(&code[*offset..]));
         faults.extend(options.map(|(offset, _)| format!("{}: an option in {module}: name a field", at(offset))));
+        faults.extend(options_in_comments(source).map(|offset| format!("{}: an option in a comment", at(offset))));
     }
     faults
 }
 
-/// Whether a text that begins with two dashes begins with an option.
+/// Whether a text that begins with two dashes begins with an option, or with one whose name is put in.
 fn is_option(text: &str) -> bool {
-    text.trim_start_matches('-').starts_with(|next: char| next.is_ascii_lowercase()) && !text.starts_with("---")
+    let is_name = |next: char| next.is_ascii_lowercase() || next == '{';
+    text.trim_start_matches('-').starts_with(is_name) && !text.starts_with("---")
+}
+
+/// Where comments speak of options: in the words of one face, of what others ask, too. What cargo is told is none of it.
+fn options_in_comments(source: &str) -> impl Iterator<Item = usize> {
+    let comments = TextRanges::of(source).comments.into_iter();
+    comments.flat_map(|comment| {
+        let text = &source[comment.clone()];
+        let is_said = |at: usize| is_option(&text[at..]) && text[..at].ends_with([' ', '`', '(']);
+        let found = text.match_indices("--").map(|(at, _)| at).filter(|at| is_said(*at) && !text.contains("cargo "));
+        found.map(|at| comment.start + at).collect::<Vec<_>>()
+    })
 }
 
 /// The modules around a file's content, the outermost first: `shadow/stencil.rs` is shadow, stencil.
@@ -199,11 +220,13 @@ fn module_of(path: &Path) -> Vec<String> {
 
 /// The source with every comment blanked, so that a link in the documentation is no arrow. Offsets and lines stay.
 pub(crate) fn without_comments(source: &str) -> String {
-    let blank = |line: &str| {
-        let code = line.find("//").map_or(line, |start| &line[..start]);
-        format!("{code}{}", " ".repeat(line.len() - code.len()))
-    };
-    source.lines().map(blank).collect::<Vec<_>>().join("\n")
+    let (mut code, mut done) = (String::with_capacity(source.len()), 0);
+    for comment in TextRanges::of(source).comments {
+        code.push_str(&source[done..comment.start]);
+        code.extend(source[comment.clone()].bytes().map(|byte| if byte == b'\n' { '\n' } else { ' ' }));
+        done = comment.end;
+    }
+    code + &source[done..]
 }
 
 /// Where the code names a module of the crate's root, and which: `crate::x`, `crate::{x, y::z}`, the library's own name,
@@ -347,7 +370,16 @@ fn checker_finds_each_kind_of_fault() {
         ("cli.rs", "let now = std::time::SystemTime::now();"),
         ("study/machine.rs", "let what = \"take a longer --step\";"),
         ("desktop/panel.rs", "ui.label(\"--technique: rays alone\");"),
+        ("study/machine.rs", "let what = format!(\"--{name}: rays alone\");"),
+        ("study/machine.rs", "let what = \"see https://example.org --step\";"),
+        ("sun/zone.rs", "let link = \"https://example.org\"; let now = chrono::Utc::now();"),
+        ("sun/zone.rs", "let link = r#\"a \" // \"#; let now = chrono::Utc::now();"),
+        ("sun/zone.rs", "let quote = ['\"', '\\'', b'\"']; // \"\nlet now = chrono::Utc::now();"),
+        ("site/overrides.rs", "/// `--step 30min`\nlet step = \"----- -->\";"),
+        ("site/study.rs", "let at = 1; // as --at has it"),
         ("desktop/view.rs", "let casts = drawn.technique == \"ray-cast\";"),
+        ("desktop/view.rs", "let casts = drawn.technique == \"stencil\";"),
+        ("export/report.rs", "let casts = drawn.technique == \"hybrid\";"),
         ("desktop/work.rs", "use crate::cli::one_line;"),
         ("cli/mod.rs", "use crate::desktop::open;"),
         ("export/report.rs", "use crate::deliver::Sink;"),
@@ -361,7 +393,11 @@ fn checker_finds_each_kind_of_fault() {
         ("cli.rs", "eprintln!(\"{}\", crate::study::run());"),
         ("study.rs", "let started = std::time::Instant::now();"),
         ("cli.rs", "let what = \"take a longer --step\";"),
-        ("site/overrides.rs", "/// `--step 30min`\nlet step = \"----- -->\";"),
+        ("cli.rs", "/// `--step 30min`"),
+        ("site/overrides.rs", "/// The step, --> as asked.\nlet step = \"----- -->\";"),
+        ("lib.rs", "//! `cargo run --example site-in-memory`"),
+        ("shadow/stencil.rs", "let pass = Some(\"stencil\");"),
+        ("mesh/weld.rs", "fn of<'a>(text: &'a str) {} /* crate::site */ // crate::sun"),
     ];
     for (path, source) in good {
         assert_eq!(faults(Path::new(path), source), Vec::<String>::new(), "{path}");

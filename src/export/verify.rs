@@ -1,4 +1,4 @@
-//! What `gnomon verify` says: `verify --json`, and a table with a legend.
+//! What `gnomon verify` says: JSON, and a table with a legend.
 
 use super::{ExportError, report};
 use crate::choice::{Engine, Finder, Promise, Truth};
@@ -58,7 +58,7 @@ struct RowReport<'a> {
     holds: Option<bool>,
 }
 
-/// `verify --json`: place, plan and instants as in `profile.json`, then
+/// The JSON of `gnomon verify`: place, plan and instants as in `profile.json`, then
 ///
 /// - `instants_compared`: those with a sun;
 /// - `sun_samples`, `sun_samples_secs_per_instant`: the points of the sun's disc, and how long an instant took to them;

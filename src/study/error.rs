@@ -153,7 +153,7 @@ impl StudyError {
     }
 }
 
-/// So much memory as `--memory` takes it, no less than that.
+/// So much memory as a budget is written, no less than that.
 fn amount(bytes: u64) -> String {
     if bytes < 10 << 20 {
         return format!("{}KiB", bytes.div_ceil(1 << 10));
