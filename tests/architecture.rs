@@ -120,6 +120,25 @@ const KNOWN_TO_ALL: &str = "message";
 /// Who may write an option of the command: all others name a field of the request, which each face has its own word for.
 const WRITES_OPTIONS: &[&str] = &["cli", "main"];
 
+/// Words of one face in what is said to people.
+const WORDS_OF_A_FACE: &[&str] = &[
+    "command",
+    "gnomon profile",
+    "gnomon compare",
+    "gnomon shadow",
+    "gnomon animate",
+    "gnomon sun",
+    "gnomon check",
+    "gnomon convert",
+    "gnomon volumes",
+    "gnomon verify",
+    "gnomon probe",
+    "gnomon open",
+];
+
+/// Where these words are meant: a menu of another program, the reference of the site file, and a window that cannot open.
+const SPEAK_OF_COMMANDS: &[&str] = &["formats/refused.rs", "site/key_table.rs", "desktop/reopening.rs"];
+
 /// Words that only some modules may write, and why. `main` is the binary's own file.
 const RESERVED: &[(&str, &[&str], &str)] = &[
     ("print!(", &["cli", "main"], "only faces print"),
@@ -187,6 +206,10 @@ fn faults(path: &Path, source: &str) -> Vec<String> {
     if !WRITES_OPTIONS.contains(&module) {
         let options = code.match_indices("--").filter(|(offset, _)| is_option(&code[*offset..]));
         faults.extend(options.map(|(offset, _)| format!("{}: an option in {module}: name a field", at(offset))));
+        if !SPEAK_OF_COMMANDS.iter().any(|file| path == Path::new(file)) {
+            let words = words_of_a_face(source).into_iter();
+            faults.extend(words.map(|(offset, word)| format!("{}: \"{word}\" in {module}: name a field", at(offset))));
+        }
         faults.extend(options_in_comments(source).map(|offset| format!("{}: an option in a comment", at(offset))));
     }
     faults
@@ -196,6 +219,18 @@ fn faults(path: &Path, source: &str) -> Vec<String> {
 fn is_option(text: &str) -> bool {
     let is_name = |next: char| next.is_ascii_lowercase() || next == '{';
     text.trim_start_matches('-').starts_with(is_name) && !text.starts_with("---")
+}
+
+/// Where string literals have words of one face.
+fn words_of_a_face(source: &str) -> Vec<(usize, &'static str)> {
+    let mut found = Vec::new();
+    for literal in TextRanges::of(source).literals {
+        let text = &source[literal.clone()];
+        for word in WORDS_OF_A_FACE {
+            found.extend(text.match_indices(word).map(|(at, _)| (literal.start + at, *word)));
+        }
+    }
+    found
 }
 
 /// Where comments speak of options: in the words of one face, of what others ask, too. What cargo is told is none of it.
@@ -377,6 +412,8 @@ fn checker_finds_each_kind_of_fault() {
         ("sun/zone.rs", "let quote = ['\"', '\\'', b'\"']; // \"\nlet now = chrono::Utc::now();"),
         ("site/overrides.rs", "/// `--step 30min`\nlet step = \"----- -->\";"),
         ("site/study.rs", "let at = 1; // as --at has it"),
+        ("deliver/shelf.rs", "let note = \"the same command goes on\";"),
+        ("export/verify.rs", "let why = \"\\\n    gnomon check says more\";"),
         ("desktop/view.rs", "let casts = drawn.technique == \"ray-cast\";"),
         ("desktop/view.rs", "let casts = drawn.technique == \"stencil\";"),
         ("export/report.rs", "let casts = drawn.technique == \"hybrid\";"),
@@ -396,6 +433,9 @@ fn checker_finds_each_kind_of_fault() {
         ("cli.rs", "/// `--step 30min`"),
         ("site/overrides.rs", "/// The step, --> as asked.\nlet step = \"----- -->\";"),
         ("lib.rs", "//! `cargo run --example site-in-memory`"),
+        ("cli/output.rs", "let note = \"the same command goes on\";"),
+        ("export/glb.rs", "let generator = \"gnomon \"; // of the command"),
+        ("formats/refused.rs", "let way_out = \"with the command MESHSMOOTH\";"),
         ("shadow/stencil.rs", "let pass = Some(\"stencil\");"),
         ("mesh/weld.rs", "fn of<'a>(text: &'a str) {} /* crate::site */ // crate::sun"),
     ];

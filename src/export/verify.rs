@@ -2,6 +2,7 @@
 
 use super::{ExportError, report};
 use crate::choice::{Engine, Finder, Promise, Truth};
+use crate::message::{Field, Piece, Words, message, pieces};
 use crate::site::Site;
 use crate::sun::{Place, SunTrack};
 use crate::verification::{HoursDifference, Row, Verification};
@@ -163,7 +164,7 @@ pub fn table(verification: &Verification, site: &Site) -> String {
     for row in &verification.rows {
         line(&mut table, row, verification.row_holds(row));
     }
-    legend(&mut table, verification);
+    legend(&mut table, verification, site.words);
     table
 }
 
@@ -258,7 +259,7 @@ fn line(table: &mut String, row: &Row, holds: Option<bool>) {
     );
 }
 
-fn legend(table: &mut String, verification: &Verification) {
+fn legend(table: &mut String, verification: &Verification, words: &dyn Words) {
     let Verification { sun_samples, disc_secs, rows, .. } = verification;
     // Writing to a String cannot fail.
     let _ = writeln!(
@@ -277,21 +278,21 @@ fn legend(table: &mut String, verification: &Verification) {
             0 => String::new(),
             thin => format!(", without up to {thin} beside what is thinner than a cell"),
         },
-        bound(verification),
+        bound(verification, words),
     );
 }
 
 /// The bound that has to hold, and the reason for it.
-fn bound(verification: &Verification) -> String {
-    let why = if verification.clean {
-        ""
-    } else {
-        "\n         (as not every part that casts is clean: gnomon check says more)"
-    };
-    format!(
-        "holds: of edge cells at most {}% differ, and of others one in {OTHERS}; of ray casting's none{why}",
+fn bound(verification: &Verification, words: &dyn Words) -> String {
+    let bound = format!(
+        "holds: of edge cells at most {}% differ, and of others one in {OTHERS}; of ray casting's none",
         100.0 * verification.edge_share
-    )
+    );
+    if verification.clean {
+        return bound;
+    }
+    let more = Piece::Where(Field::Check, pieces![": ", Field::Check, " says more"]);
+    message![bound, "\n         (as not every part that casts is clean", more, ")"].in_words(words)
 }
 
 /// Whether a row is of a technique that draws on both machines, and follows the processor's row.

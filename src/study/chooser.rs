@@ -126,7 +126,7 @@ fn not_side(view: &View, field: Field) -> Result<(), StudyError> {
 pub(crate) fn not_patches(site: &Site) -> Result<(), StudyError> {
     if site.receivers == Receivers::Patches {
         let message = message![
-            "surfaces are judged by gnomon profile alone";
+            "surfaces are judged in a study's profile alone";
             "take top or ground, or leave it out"
         ];
         return Err(StudyError::Conflict { field: Field::Receivers, message });
