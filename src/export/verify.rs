@@ -1,7 +1,7 @@
 //! What `gnomon verify` says: JSON, and a table with a legend.
 
 use super::{ExportError, report};
-use crate::choice::{Engine, Finder, Promise, Truth};
+use crate::choice::{Engine, Finder, Method, MethodRow, Promise, Subject, TABLE, Truth};
 use crate::message::{Field, Piece, Words, message, pieces};
 use crate::site::Site;
 use crate::sun::{Place, SunTrack};
@@ -33,6 +33,7 @@ struct VerifyReport<'a> {
     edge_share_bound: f64,
     holds: bool,
     techniques: Vec<RowReport<'a>>,
+    draw_no_plan: Vec<&'static str>,
     notes: Vec<String>,
 }
 
@@ -74,6 +75,7 @@ struct RowReport<'a> {
 ///   (`furthest_cells`); by how much the share of the sun, 0 to 1, and the hours of the profile are off
 ///   (`mean_share_off`, `largest_hours_off`, `mean_hours_off`); `secs_per_instant`; and `holds`, null where the technique
 ///   decides nothing;
+/// - `draw_no_plan`: the techniques that are left out, as there is no plan of theirs to compare;
 /// - `notes` as in `profile.json`.
 ///
 /// # Errors
@@ -100,8 +102,16 @@ pub fn json(verification: &Verification, site: &Site) -> Result<String, ExportEr
         edge_share_bound: *edge_share,
         holds: verification.failed().next().is_none(),
         techniques: rows.iter().map(|row| row_report(row, verification.row_holds(row))).collect(),
+        draw_no_plan: draw_no_plan(),
         notes: report::said(&site.notes, site.words),
     })
+}
+
+/// The words of the techniques that draw no plan, and so are not compared.
+fn draw_no_plan() -> Vec<&'static str> {
+    const PLANS: [Subject; 3] = [Subject::Top, Subject::Ground, Subject::Terrain];
+    let draws = |row: &MethodRow| PLANS.iter().any(|plan| row.draws(Engine::Auto, *plan));
+    TABLE.iter().filter(|row| row.method != Method::Auto && !draws(row)).map(|row| row.word).collect()
 }
 
 fn row_report(row: &Row, holds: Option<bool>) -> RowReport<'_> {
@@ -273,12 +283,14 @@ fn legend(table: &mut String, verification: &Verification, words: &dyn Words) {
          \u{20}           texels; not among the cells that differ, but in the share and the hours\n\
          furthest: how far the furthest cell that differs lies from a shadow edge, in cells: 1 is right at the edge\n\
          share off: of the sun, in the mean of all cells; h off: hours of the profile, in the worst cell and in the mean\n\
-         {}",
+         {}\n\
+         left out, drawing no plan: {}",
         match rows.iter().map(|row| row.thin).max().unwrap_or(0) {
             0 => String::new(),
             thin => format!(", without up to {thin} beside what is thinner than a cell"),
         },
         bound(verification, words),
+        draw_no_plan().join(", "),
     );
 }
 

@@ -1,4 +1,4 @@
-//! Compares every technique with ray casting, so that users can see on their own site how far to trust each.
+//! Compares every technique that draws a plan with ray casting, so that users can see on their own site how far to trust each.
 //!
 //! [`verify`] makes the techniques, and [`hold`] compares them with the truth, instant by instant. Ray casting is
 //! compared with itself without its trees, at some cells.
@@ -44,7 +44,7 @@ pub struct Trial {
     pub technique: Box<dyn Technique>,
 }
 
-/// Compares every technique with ray casting, at the study's instants.
+/// Compares every technique that draws a plan with ray casting, at the study's instants.
 ///
 /// # Errors
 /// [`StudyError`]; a study all at night, and a machine without a graphics adapter, before anything is drawn.
