@@ -389,6 +389,38 @@ fn table_is_the_reading_order_of_lib() {
     }
 }
 
+/// What the page's table says: each module, and whom it may know.
+fn rows_of_page(page: &str) -> Vec<(String, Vec<String>)> {
+    let rows = page.lines().filter_map(|line| {
+        let cells: Vec<_> = line.strip_prefix("| `")?.strip_suffix(" |")?.split(" | ").collect();
+        let [module, _, known] = cells[..] else { return None };
+        let known = known.split(';').next().unwrap_or_default();
+        let known = known.split(", ").filter(|known| *known != "nobody").map(str::to_owned);
+        Some((module.trim_end_matches('`').to_owned(), known.collect()))
+    });
+    rows.collect()
+}
+
+#[test]
+fn the_pages_table_says_what_is_checked() {
+    let page =
+        files("docs", "md").into_iter().find(|(path, _)| path == Path::new("architecture.md")).expect("the page").1;
+    let sorted = |known: Vec<String>| known.into_iter().collect::<std::collections::BTreeSet<_>>();
+    let page: Vec<_> = rows_of_page(&page).into_iter().map(|(module, known)| (module, sorted(known))).collect();
+    let checked = MAY_KNOW
+        .iter()
+        .map(|(module, known)| (module.to_string(), sorted(known.iter().map(|known| known.to_string()).collect())));
+    let checked: Vec<_> = checked.collect();
+    for row in &checked {
+        assert!(page.contains(row), "docs/architecture.md, {}: not {:?}", row.0, row.1);
+    }
+    assert_eq!(page.len(), checked.len(), "docs/architecture.md has other modules");
+    let table = "| module | what it is | whom it knows |\n|---|---|---|\n| `sun` | where; when | nobody; all know it |\n\
+                 | `site` | what | sun, mesh |\n";
+    let rows = [("sun".to_owned(), vec![]), ("site".to_owned(), vec!["sun".to_owned(), "mesh".to_owned()])];
+    assert_eq!(rows_of_page(table), rows);
+}
+
 #[test]
 fn checker_finds_each_kind_of_fault() {
     let bad = [
