@@ -53,7 +53,6 @@ pub use {chrono, glam};
 // The modules in the order in which they are best read; each knows only those above it, and a test says so. Those that are
 // no part of a door are hidden in the documentation; `docs/architecture.md` has all of them.
 
-#[doc(hidden)]
 pub mod message;
 
 pub mod choice;
@@ -70,7 +69,6 @@ pub mod view;
 #[doc(hidden)]
 pub mod rules;
 
-#[doc(hidden)]
 pub mod formats;
 pub mod site;
 

@@ -276,7 +276,7 @@ impl From<String> for Message {
 }
 
 impl Message {
-    /// The same, said of a field or key: `--step: …`.
+    /// The same, said of a field or key: `step: …`.
     pub(crate) fn of(mut self, at: Piece) -> Message {
         self.what.splice(..0, [at, ": ".into()]);
         self

@@ -15,9 +15,9 @@ use gnomon::choice::{Engine, Method};
 use gnomon::mesh::{Mesh, MeshError, Part};
 use gnomon::profile::Shaded;
 use gnomon::site::{Overrides, Site, SiteError};
-use gnomon::study::{self, Budget, TiledStudy, Wants, paste};
+use gnomon::study::{self, Budget, StudyError, TiledStudy, Wants, paste};
 use gnomon::sun::{Instant, Place, SunTrack, Window};
-use gnomon::view::Grid;
+use gnomon::view::{Grid, Tile};
 use serde_json::json;
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -173,6 +173,44 @@ fn tiles_and_instants_put_together_are_the_study() {
             whole = paste(&whole, tile, &Arc::new(Shaded::from(sums)));
         }
         assert_eq!(*whole, self::sums(&site));
+    }
+}
+
+#[test]
+fn lists_and_tiles_of_something_else_are_refused() {
+    let two = || Mesh::build(vec![tower(), Part { name: "twin".into(), ..tower() }]).unwrap();
+    let whole = site_of(two());
+    let on_event = &mut |_: study::Event<'_>| ControlFlow::Continue(());
+    for flags in [vec![true], vec![], vec![true; 3]] {
+        let of = |casts: &[bool], receives: &[bool]| Site {
+            casts: casts.to_vec(),
+            receives: receives.to_vec(),
+            ..whole.clone()
+        };
+        for (list, site) in [("casts", of(&flags, &whole.receives)), ("receives", of(&whole.casts, &flags))] {
+            let errors = [
+                study::run(&site, &Wants::default(), on_event).map(drop).unwrap_err(),
+                TiledStudy::new(&site, &Wants::default(), on_event).map(drop).unwrap_err(),
+                study::patches(&site, 4.0, on_event).map(drop).unwrap_err(),
+            ];
+            for error in errors {
+                let (StudyError::Components { list: found, length, components: 2 }) = error else { panic!("{error}") };
+                assert_eq!((found, length), (list, flags.len()));
+            }
+        }
+    }
+
+    let study = TiledStudy::new(&whole, &Wants::default(), on_event).unwrap();
+    let own = study.tiles()[0];
+    assert!(study.sum(own, &whole.track.instants[..1]).is_ok());
+    let others = [
+        Tile::from(Grid { west: GRID.west + 1.0, ..GRID }),
+        Tile::from(Grid { width: GRID.width + 1, ..GRID }),
+        Tile { first: [GRID.width, 0], ..own },
+    ];
+    for tile in others {
+        let error = study.sum(tile, &whole.track.instants[..1]).map(drop).unwrap_err();
+        assert!(matches!(error, StudyError::OtherTile), "{tile:?}: {error}");
     }
 }
 

@@ -1,6 +1,9 @@
 //! The rules of `docs/architecture.md`, as far as a machine can see them: who may know whom, who may print, who may
 //! read files, how types are named, and how long files and functions may be.
 
+mod rust_text;
+
+use rust_text::TextRanges;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -117,6 +120,25 @@ const KNOWN_TO_ALL: &str = "message";
 /// Who may write an option of the command: all others name a field of the request, which each face has its own word for.
 const WRITES_OPTIONS: &[&str] = &["cli", "main"];
 
+/// Words of one face in what is said to people.
+const WORDS_OF_A_FACE: &[&str] = &[
+    "command",
+    "gnomon profile",
+    "gnomon compare",
+    "gnomon shadow",
+    "gnomon animate",
+    "gnomon sun",
+    "gnomon check",
+    "gnomon convert",
+    "gnomon volumes",
+    "gnomon verify",
+    "gnomon probe",
+    "gnomon open",
+];
+
+/// Where these words are meant: a menu of another program, the reference of the site file, and a window that cannot open.
+const SPEAK_OF_COMMANDS: &[&str] = &["formats/refused.rs", "site/key_table.rs", "desktop/reopening.rs"];
+
 /// Words that only some modules may write, and why. `main` is the binary's own file.
 const RESERVED: &[(&str, &[&str], &str)] = &[
     ("print!(", &["cli", "main"], "only faces print"),
@@ -135,9 +157,14 @@ const RESERVED: &[(&str, &[&str], &str)] = &[
         "only formats, site and rules read what the user wrote, export and deliver what they wrote themselves, and sun the system's rules of clocks",
     ),
     ("File::open", &["formats", "site"], "only formats and site read what the user wrote"),
-    ("\"ray-cast\"", &["choice"], "techniques are types until they are printed"),
-    ("\"shadow-map\"", &["choice"], "techniques are types until they are printed"),
-    ("\"soft-texture\"", &["choice"], "techniques are types until they are printed"),
+    // gpu and shadow name shaders and passes so
+    ("\"stencil\"", &["choice", "gpu", "shadow"], "techniques are types until they are printed"),
+    ("\"projected\"", &["choice", "gpu", "shadow"], "techniques are types until they are printed"),
+    ("\"shadow-map\"", &["choice", "gpu", "shadow"], "techniques are types until they are printed"),
+    ("\"hybrid\"", &["choice", "gpu", "shadow"], "techniques are types until they are printed"),
+    ("\"smoothie\"", &["choice", "gpu", "shadow"], "techniques are types until they are printed"),
+    ("\"soft-texture\"", &["choice", "gpu", "shadow"], "techniques are types until they are printed"),
+    ("\"ray-cast\"", &["choice", "gpu", "shadow"], "techniques are types until they are printed"),
     ("SystemTime::now", &[], "nothing reads the clock"),
     ("Utc::now", &[], "nothing reads the clock"),
     ("Local::now", &[], "nothing reads the clock"),
@@ -179,13 +206,42 @@ fn faults(path: &Path, source: &str) -> Vec<String> {
     if !WRITES_OPTIONS.contains(&module) {
         let options = code.match_indices("--").filter(|(offset, _)| is_option(&code[*offset..]));
         faults.extend(options.map(|(offset, _)| format!("{}: an option in {module}: name a field", at(offset))));
+        if !SPEAK_OF_COMMANDS.iter().any(|file| path == Path::new(file)) {
+            let words = words_of_a_face(source).into_iter();
+            faults.extend(words.map(|(offset, word)| format!("{}: \"{word}\" in {module}: name a field", at(offset))));
+        }
+        faults.extend(options_in_comments(source).map(|offset| format!("{}: an option in a comment", at(offset))));
     }
     faults
 }
 
-/// Whether a text that begins with two dashes begins with an option.
+/// Whether a text that begins with two dashes begins with an option, or with one whose name is put in.
 fn is_option(text: &str) -> bool {
-    text.trim_start_matches('-').starts_with(|next: char| next.is_ascii_lowercase()) && !text.starts_with("---")
+    let is_name = |next: char| next.is_ascii_lowercase() || next == '{';
+    text.trim_start_matches('-').starts_with(is_name) && !text.starts_with("---")
+}
+
+/// Where string literals have words of one face.
+fn words_of_a_face(source: &str) -> Vec<(usize, &'static str)> {
+    let mut found = Vec::new();
+    for literal in TextRanges::of(source).literals {
+        let text = &source[literal.clone()];
+        for word in WORDS_OF_A_FACE {
+            found.extend(text.match_indices(word).map(|(at, _)| (literal.start + at, *word)));
+        }
+    }
+    found
+}
+
+/// Where comments speak of options: in the words of one face, of what others ask, too. What cargo is told is none of it.
+fn options_in_comments(source: &str) -> impl Iterator<Item = usize> {
+    let comments = TextRanges::of(source).comments.into_iter();
+    comments.flat_map(|comment| {
+        let text = &source[comment.clone()];
+        let is_said = |at: usize| is_option(&text[at..]) && text[..at].ends_with([' ', '`', '(']);
+        let found = text.match_indices("--").map(|(at, _)| at).filter(|at| is_said(*at) && !text.contains("cargo "));
+        found.map(|at| comment.start + at).collect::<Vec<_>>()
+    })
 }
 
 /// The modules around a file's content, the outermost first: `shadow/stencil.rs` is shadow, stencil.
@@ -199,11 +255,13 @@ fn module_of(path: &Path) -> Vec<String> {
 
 /// The source with every comment blanked, so that a link in the documentation is no arrow. Offsets and lines stay.
 pub(crate) fn without_comments(source: &str) -> String {
-    let blank = |line: &str| {
-        let code = line.find("//").map_or(line, |start| &line[..start]);
-        format!("{code}{}", " ".repeat(line.len() - code.len()))
-    };
-    source.lines().map(blank).collect::<Vec<_>>().join("\n")
+    let (mut code, mut done) = (String::with_capacity(source.len()), 0);
+    for comment in TextRanges::of(source).comments {
+        code.push_str(&source[done..comment.start]);
+        code.extend(source[comment.clone()].bytes().map(|byte| if byte == b'\n' { '\n' } else { ' ' }));
+        done = comment.end;
+    }
+    code + &source[done..]
 }
 
 /// Where the code names a module of the crate's root, and which: `crate::x`, `crate::{x, y::z}`, the library's own name,
@@ -331,6 +389,38 @@ fn table_is_the_reading_order_of_lib() {
     }
 }
 
+/// What the page's table says: each module, and whom it may know.
+fn rows_of_page(page: &str) -> Vec<(String, Vec<String>)> {
+    let rows = page.lines().filter_map(|line| {
+        let cells: Vec<_> = line.strip_prefix("| `")?.strip_suffix(" |")?.split(" | ").collect();
+        let [module, _, known] = cells[..] else { return None };
+        let known = known.split(';').next().unwrap_or_default();
+        let known = known.split(", ").filter(|known| *known != "nobody").map(str::to_owned);
+        Some((module.trim_end_matches('`').to_owned(), known.collect()))
+    });
+    rows.collect()
+}
+
+#[test]
+fn the_pages_table_says_what_is_checked() {
+    let page =
+        files("docs", "md").into_iter().find(|(path, _)| path == Path::new("architecture.md")).expect("the page").1;
+    let sorted = |known: Vec<String>| known.into_iter().collect::<std::collections::BTreeSet<_>>();
+    let page: Vec<_> = rows_of_page(&page).into_iter().map(|(module, known)| (module, sorted(known))).collect();
+    let checked = MAY_KNOW
+        .iter()
+        .map(|(module, known)| (module.to_string(), sorted(known.iter().map(|known| known.to_string()).collect())));
+    let checked: Vec<_> = checked.collect();
+    for row in &checked {
+        assert!(page.contains(row), "docs/architecture.md, {}: not {:?}", row.0, row.1);
+    }
+    assert_eq!(page.len(), checked.len(), "docs/architecture.md has other modules");
+    let table = "| module | what it is | whom it knows |\n|---|---|---|\n| `sun` | where; when | nobody; all know it |\n\
+                 | `site` | what | sun, mesh |\n";
+    let rows = [("sun".to_owned(), vec![]), ("site".to_owned(), vec!["sun".to_owned(), "mesh".to_owned()])];
+    assert_eq!(rows_of_page(table), rows);
+}
+
 #[test]
 fn checker_finds_each_kind_of_fault() {
     let bad = [
@@ -347,7 +437,18 @@ fn checker_finds_each_kind_of_fault() {
         ("cli.rs", "let now = std::time::SystemTime::now();"),
         ("study/machine.rs", "let what = \"take a longer --step\";"),
         ("desktop/panel.rs", "ui.label(\"--technique: rays alone\");"),
+        ("study/machine.rs", "let what = format!(\"--{name}: rays alone\");"),
+        ("study/machine.rs", "let what = \"see https://example.org --step\";"),
+        ("sun/zone.rs", "let link = \"https://example.org\"; let now = chrono::Utc::now();"),
+        ("sun/zone.rs", "let link = r#\"a \" // \"#; let now = chrono::Utc::now();"),
+        ("sun/zone.rs", "let quote = ['\"', '\\'', b'\"']; // \"\nlet now = chrono::Utc::now();"),
+        ("site/overrides.rs", "/// `--step 30min`\nlet step = \"----- -->\";"),
+        ("site/study.rs", "let at = 1; // as --at has it"),
+        ("deliver/shelf.rs", "let note = \"the same command goes on\";"),
+        ("export/verify.rs", "let why = \"\\\n    gnomon check says more\";"),
         ("desktop/view.rs", "let casts = drawn.technique == \"ray-cast\";"),
+        ("desktop/view.rs", "let casts = drawn.technique == \"stencil\";"),
+        ("export/report.rs", "let casts = drawn.technique == \"hybrid\";"),
         ("desktop/work.rs", "use crate::cli::one_line;"),
         ("cli/mod.rs", "use crate::desktop::open;"),
         ("export/report.rs", "use crate::deliver::Sink;"),
@@ -361,7 +462,14 @@ fn checker_finds_each_kind_of_fault() {
         ("cli.rs", "eprintln!(\"{}\", crate::study::run());"),
         ("study.rs", "let started = std::time::Instant::now();"),
         ("cli.rs", "let what = \"take a longer --step\";"),
-        ("site/overrides.rs", "/// `--step 30min`\nlet step = \"----- -->\";"),
+        ("cli.rs", "/// `--step 30min`"),
+        ("site/overrides.rs", "/// The step, --> as asked.\nlet step = \"----- -->\";"),
+        ("lib.rs", "//! `cargo run --example site-in-memory`"),
+        ("cli/output.rs", "let note = \"the same command goes on\";"),
+        ("export/glb.rs", "let generator = \"gnomon \"; // of the command"),
+        ("formats/refused.rs", "let way_out = \"with the command MESHSMOOTH\";"),
+        ("shadow/stencil.rs", "let pass = Some(\"stencil\");"),
+        ("mesh/weld.rs", "fn of<'a>(text: &'a str) {} /* crate::site */ // crate::sun"),
     ];
     for (path, source) in good {
         assert_eq!(faults(Path::new(path), source), Vec::<String>::new(), "{path}");

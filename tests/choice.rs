@@ -54,7 +54,7 @@ fn the_table_agrees_with_itself() {
             sun_samples: Some(3),
         };
         let set = row.set(&all);
-        assert!(row.check(Finder::Auto, &set, Subject::Top).is_ok(), "{}", row.word);
+        assert!(row.check(Finder::Auto, &set, Engine::Auto, Subject::Top).is_ok(), "{}", row.word);
         assert_eq!(row.settings.is_empty(), set == Settings::NONE, "{}", row.word);
     }
     // what draws in both ways is told apart in verify by the machine alone, and ray casting is the truth
@@ -144,7 +144,8 @@ fn what_does_not_fit_names_the_choice_and_the_way_out() {
     assert!(of_plan.ends_with("; soft-texture goes with --receivers surfaces"), "{of_plan}");
     let of_camera = options(Method::Projected, Engine::Auto, Subject::Camera);
     assert!(of_camera.starts_with("--technique: ") && !of_camera.contains("goes with"), "{of_camera}");
-    let check = |method: Method, finder, settings| told(method.row().check(finder, &settings, Subject::Top));
+    let check =
+        |method: Method, finder, settings| told(method.row().check(finder, &settings, Engine::Auto, Subject::Top));
     let map = Settings { map_size: Some(512), ..Settings::NONE };
     assert_eq!(
         check(Method::Stencil, Finder::Auto, map),
@@ -154,6 +155,28 @@ fn what_does_not_fit_names_the_choice_and_the_way_out() {
         check(Method::Smoothie, Finder::Gpu, Settings::NONE),
         "silhouette: smoothie uses brute and hextree alone; take one of them, or leave it out"
     );
-    let on_surfaces = Method::SoftTexture.row().check(Finder::Auto, &map, Subject::Patches);
+    let on_surfaces = Method::SoftTexture.row().check(Finder::Auto, &map, Engine::Auto, Subject::Patches);
     assert_eq!(told(on_surfaces), "map size: nothing that draws façades and roofs uses it; leave it out");
+    // no hint leads to what the machine that is asked refuses
+    let disc = Settings { sun_samples: Some(4), ..Settings::NONE };
+    let on = |method: Method, settings, engine, subject| {
+        let misfit = method.row().check(Finder::Auto, &settings, engine, subject).expect_err("a misfit");
+        misfit.in_words(&Options)
+    };
+    assert_eq!(
+        on(Method::Stencil, disc, Engine::Gpu, Subject::Top),
+        "--sun-samples: only ray-cast uses it; take that technique without --engine gpu, or leave it out"
+    );
+    assert_eq!(
+        on(Method::Projected, map, Engine::Cpu, Subject::Top),
+        "--map-size: only shadow-map, hybrid and smoothie use it; take one of them without --engine cpu, or leave it out"
+    );
+    assert_eq!(
+        on(Method::Stencil, map, Engine::Gpu, Subject::Top),
+        "--map-size: only shadow-map, hybrid and smoothie use it; take one of them, or leave it out"
+    );
+    assert_eq!(
+        on(Method::Stencil, disc, Engine::Gpu, Subject::Patches),
+        "--sun-samples: only soft-texture uses it on the gpu; take that technique, or leave it out"
+    );
 }

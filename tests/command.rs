@@ -295,7 +295,8 @@ fn show_draws_volumes_silhouette_and_components() {
 fn show_is_for_a_cameras_drawing_by_the_stencil() {
     let folder = site();
     let at = "shadow . --at 2026-09-18T15:00";
-    fails(folder.path(), &format!("{at} --show volumes"), 2, &["--show", "--view camera"]);
+    fails(folder.path(), &format!("{at} --show volumes"), 2, &["--show", "add --view camera, or leave it out"]);
+    fails(folder.path(), &format!("{at} --show components"), 2, &["--show", "--view camera or a side"]);
     fails(folder.path(), &format!("{at} --view camera --mask m.png --show components"), 2, &["--show", "--out"]);
     fails(folder.path(), &format!("{at} --view camera --show walls"), 2, &["walls", "volumes, silhouette, components"]);
     for options in ["--engine cpu", "--technique ray-cast"] {
@@ -387,7 +388,7 @@ fn ctrl_c_ends_the_work_without_an_answer() {
     assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
     let told: Vec<String> = told.map(Result::unwrap).collect();
     assert_eq!((child.wait().unwrap().code(), told.last().unwrap().as_str()), (Some(130), "error: interrupted"));
-    assert!(told.iter().any(|line| line.contains("the same command goes on from there")), "{told:?}");
+    assert!(told.iter().any(|line| line.contains("the same study goes on from there")), "{told:?}");
     // no file of the answer, and what it goes on from
     assert_eq!(crate::shared::program::numberless(&folder.path().join("out")), ["profile.N.unfinished"]);
 }

@@ -5,6 +5,8 @@ use std::path::Path;
 
 /// The modules, and what each shows at its root.
 const SHOWN: &[(&str, &[&str])] = &[
+    // and Field, which a macro makes
+    ("message", &["Message", "Piece", "PlainWords", "Worded", "Words"]),
     ("choice", &["Engine", "Filter", "Finder", "Method", "Misfit", "Receivers", "Setting", "Settings", "Subject"]),
     ("mesh", &["Component", "CornerPrecision", "Incidence", "Mesh", "MeshError", "Part"]),
     (
@@ -42,6 +44,7 @@ const SHOWN: &[(&str, &[&str])] = &[
             "View",
         ],
     ),
+    ("formats", &["ModelCache", "ModelError", "ModelFault", "ModelReader", "ReadLimits", "Up"]),
     (
         "site",
         &["FieldLocation", "Ground", "GroundFrom", "GroundKind", "Likeness", "Mend", "Overrides", "Site", "SiteError"],
@@ -129,6 +132,87 @@ fn source(path: &str) -> String {
     std::fs::read_to_string(src.join(path)).expect("a source file")
 }
 
+/// A module's own file.
+fn own_file(module: &str) -> String {
+    if module == "message" { "message.rs".to_owned() } else { format!("{module}/mod.rs") }
+}
+
+/// Types of the standard library, of the crates that are exported, and of wgpu.
+const OTHERS_TYPES: &[&str] = &[
+    "Arc",
+    "AtomicBool",
+    "Box",
+    "ControlFlow",
+    "Cow",
+    "DVec3",
+    "DVec4",
+    "DateTime",
+    "Device",
+    "Duration",
+    "FixedOffset",
+    "Limits",
+    "NaiveDate",
+    "NaiveDateTime",
+    "NaiveTime",
+    "Option",
+    "PathBuf",
+    "Queue",
+    "Range",
+    "RefCell",
+    "Self",
+    "String",
+    "Texture",
+    "TimeDelta",
+    "Vec",
+    "Vec3",
+];
+
+/// The types in the public fields of a source's shown types which the documentation does not show: `Type: field's type`.
+fn unseen_types(source: &str, is_shown: impl Fn(&str) -> bool) -> Vec<String> {
+    let (mut unseen, mut of, mut is_hidden) = (Vec::new(), None, false);
+    for line in source.lines() {
+        let code = line.trim();
+        if let Some(name) = ["pub struct ", "pub enum "].iter().find_map(|word| line.strip_prefix(word)) {
+            let is_struct = line.starts_with("pub struct");
+            let name = name.split(|c: char| !c.is_alphanumeric()).next().unwrap_or_default();
+            of = line.ends_with('{').then_some((name, is_struct)).filter(|(name, _)| is_shown(name));
+        } else if line == "}" {
+            of = None;
+        }
+        is_hidden &= of.is_some();
+        let Some((name, is_struct)) = of.filter(|_| line.starts_with(' ') && !code.starts_with(['/', '#'])) else {
+            is_hidden |= code == "#[doc(hidden)]";
+            continue;
+        };
+        if std::mem::take(&mut is_hidden) {
+            continue;
+        }
+        let field = match (code.strip_prefix("pub "), is_struct) {
+            (Some(field), true) => field.split_once(": "),
+            (_, false) => code.split_once(": ").or(code.split_once('(')),
+            _ => None,
+        };
+        let words = field.map_or("", |(_, of)| of).split(|c: char| !c.is_alphanumeric() && c != '_');
+        let types = words.filter(|word| word.starts_with(char::is_uppercase) && word.len() > 1);
+        let hidden = types.filter(|word| !is_shown(word) && !OTHERS_TYPES.contains(word));
+        unseen.extend(hidden.map(|word| format!("{name}: {word}")));
+    }
+    unseen
+}
+
+#[test]
+fn fields_have_types_that_are_shown() {
+    let is_shown = |word: &str| word == "Field" || SHOWN.iter().any(|(_, names)| names.contains(&word));
+    let sources = crate::architecture::files("src", "rs");
+    let unseen: Vec<_> = sources.iter().flat_map(|(_, source)| unseen_types(source, is_shown)).collect();
+    assert!(unseen.is_empty(), "types of public fields that the documentation hides:\n{}", unseen.join("\n"));
+    let file = "pub struct Site {\n    /// Of a Hidden.\n    pub words: Vec<Words>,\n    #[doc(hidden)]\n    pub of: Hidden,\n    own: Hidden,\n}\npub struct Other {\n    \
+        pub it: Hidden,\n}\npub enum Error {\n    Of(Box<Hidden>),\n    Value {\n        at: Words,\n    },\n}";
+    let shown = |word: &str| ["Site", "Words", "Error"].contains(&word);
+    assert_eq!(unseen_types(file, shown), ["Error: Hidden"]);
+    assert_eq!(unseen_types(file, |word| word == "Site"), ["Site: Words"]);
+}
+
 #[test]
 fn documentation_shows_the_doors_and_their_types() {
     let lib = source("lib.rs");
@@ -138,7 +222,7 @@ fn documentation_shows_the_doors_and_their_types() {
     modules.sort();
     assert_eq!(shown(&lib), modules, "lib.rs");
     for (module, names) in SHOWN {
-        assert_eq!(shown(&source(&format!("{module}/mod.rs"))), *names, "src/{module}/mod.rs");
+        assert_eq!(shown(&source(&own_file(module))), *names, "src/{module}");
     }
 }
 

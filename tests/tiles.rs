@@ -219,7 +219,7 @@ fn files_of_a_study_in_tiles_are_those_of_the_whole() {
     ] {
         done(path, &format!("profile . {STUDY} {asked} --out {name}"));
         let told = stderr(&gnomon(path, &format!("profile . {STUDY} {asked} --memory {memory} --out {name}-tiles")));
-        assert!(told.contains("the plan is done in ") && told.contains(" instants of tiles"), "{told}");
+        assert!(told.contains("the plan is done in ") && told.contains(" instants, counted in each tile"), "{told}");
         same(path, name, &format!("{name}-tiles"));
         // what is enough makes no tiles
         let told = stderr(&gnomon(path, &format!("profile . {STUDY} {asked} --memory 1GiB --out {name}-enough")));

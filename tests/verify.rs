@@ -4,7 +4,7 @@ use crate::shared::drawing::{plan, scene_of, to_sun};
 use crate::shared::program::{PLACE, command, done, fails, site, stderr};
 use crate::site::{SITE, load};
 use glam::{DVec3, dvec3};
-use gnomon::choice::{Engine, Method, Promise, Receivers, Settings, Truth};
+use gnomon::choice::{Engine, Method, Promise, Receivers, Settings, TABLE, Truth};
 use gnomon::export::verify as told;
 use gnomon::mesh::Mesh;
 use gnomon::profile::Provenance;
@@ -243,6 +243,13 @@ fn a_box_is_verified_as_a_table_and_as_json() {
     assert_eq!((&row("stencil")["against"], &row("stencil")["silhouette"]), (&"centre".into(), &"brute".into()));
     assert_eq!((&row("smoothie")["against"], &row("smoothie")["holds"]), (&"disc".into(), &Value::Null));
     assert_eq!((&row("ray-cast")["cells"], &row("ray-cast")["holds"]), (&200.into(), &true.into()));
+    // every technique is compared or named
+    assert_eq!(json["draw_no_plan"], serde_json::json!(["soft-texture"]));
+    for method in TABLE.iter().filter(|method| method.method != Method::Auto) {
+        let is_compared = rows.iter().any(|row| row["technique"] == method.word);
+        assert_ne!(is_compared, method.word == "soft-texture", "{}", method.word);
+    }
+    assert!(table.ends_with("\nleft out, drawing no plan: soft-texture\n"), "{table}");
     // one instant has no weight
     assert_eq!((&row("hybrid")["map_missed"], &row("hybrid")["mean_hours_off"]), (&0.into(), &Value::Null));
 }

@@ -203,10 +203,10 @@ fn a_study_stopped_at_its_drawing_says_where_it_goes_on() {
     killer.kill().unwrap();
     killer.wait().unwrap();
     assert_eq!(output.status.code(), Some(130), "{told}");
-    assert!(told.contains("100%") && told.contains("the same command goes on from there"), "{told}");
+    assert!(told.contains("100%") && told.contains("the same study goes on from there"), "{told}");
     assert!(numberless(&bits).iter().any(|name| name == "profile.N.unfinished"));
     let told = stopped(path, &format!("{asked} --out short"), "100%");
-    assert!(told.contains("is not kept; the same command starts over"), "{told}");
+    assert!(told.contains("is not kept; the same study starts over"), "{told}");
     assert_eq!(numberless(&path.join("short")), [""; 0]);
 }
 

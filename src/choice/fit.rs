@@ -9,30 +9,32 @@ use crate::message::{Field, Message, Piece, Worded, pieces, plain_display};
 pub enum Misfit {
     /// The technique does not draw that subject on any machine.
     Technique {
-        /// Which one.
+        /// The technique.
         method: Method,
         /// What it was to draw.
         subject: Subject,
     },
     /// The technique draws that subject only on the other machine.
     Engine {
-        /// Which one.
+        /// The technique.
         method: Method,
-        /// Where it was to draw.
+        /// The machine that was asked.
         engine: Engine,
         /// What it was to draw.
         subject: Subject,
     },
     /// The technique does not use the option.
     Setting {
-        /// Which one.
+        /// The option.
         setting: Setting,
+        /// The machine that was asked.
+        engine: Engine,
         /// What is drawn.
         subject: Subject,
     },
     /// The technique cannot use the finder.
     Finder {
-        /// Which one.
+        /// The technique.
         method: Method,
     },
 }
@@ -62,16 +64,7 @@ impl Misfit {
                 };
                 (format!("{method} draws {} on the {other} alone", subject.name()), hint)
             }
-            Misfit::Setting { setting, subject } => {
-                let users = TABLE.iter().filter(|row| row.uses(setting) && row.draws(Engine::Auto, subject));
-                match users.map(|row| row.word).collect::<Vec<_>>().as_slice() {
-                    [] => (format!("nothing that draws {} uses it", subject.name()), pieces!["leave it out"]),
-                    [user] => (format!("only {user} uses it"), pieces!["take that technique, or leave it out"]),
-                    users => {
-                        (format!("only {} use it", listed(users, "and")), pieces!["take one of them, or leave it out"])
-                    }
-                }
-            }
+            Misfit::Setting { setting, engine, subject } => users_and_hint(setting, engine, subject),
             Misfit::Finder { method } => {
                 let finders: Vec<_> = method.row().finders.iter().map(|finder| finder.word()).collect();
                 let what = format!("{method} uses {} alone", listed(&finders, "and"));
@@ -98,6 +91,30 @@ impl Misfit {
         instead.dedup_by_key(|subject| subject.choice());
         (!instead.is_empty()).then_some((method, instead))
     }
+}
+
+/// Who uses an option, and how they are asked for: without the machine that was asked, where none of them draws on it.
+fn users_and_hint(setting: Setting, engine: Engine, subject: Subject) -> (String, Vec<Piece>) {
+    let users = |engine| {
+        let users = TABLE.iter().filter(|row| row.uses(setting) && row.draws(engine, subject));
+        users.map(|row| row.word).collect::<Vec<_>>()
+    };
+    let (all, there) = (users(Engine::Auto), users(engine));
+    let (users, on) = match there.len() {
+        0 => (&all, String::new()),
+        some if some == all.len() => (&all, String::new()),
+        _ => (&there, format!(" on the {engine}")),
+    };
+    let (what, them) = match users.as_slice() {
+        [] => return (format!("nothing that draws {} uses it", subject.name()), pieces!["leave it out"]),
+        [user] => (format!("only {user} uses it{on}"), "that technique"),
+        users => (format!("only {} use it{on}", listed(users, "and")), "one of them"),
+    };
+    let hint = match there.is_empty() {
+        true => pieces!["take ", them, " without ", (Field::Engine, engine.word()), ", or leave it out"],
+        false => pieces!["take ", them, ", or leave it out"],
+    };
+    (what, hint)
 }
 
 /// What a technique draws on the machine where it draws more.
@@ -146,11 +163,11 @@ impl MethodRow {
         }
     }
 
-    /// Returns an error if an option is given that the technique does not use.
+    /// Returns an error if an option is given that the technique does not use; the machine that was asked is for the hint.
     ///
     /// # Errors
     /// [`Misfit::Setting`], [`Misfit::Finder`].
-    pub fn check(&self, finder: Finder, settings: &Settings, subject: Subject) -> Result<(), Misfit> {
+    pub fn check(&self, finder: Finder, settings: &Settings, engine: Engine, subject: Subject) -> Result<(), Misfit> {
         let Settings { map_size, filter, smoothie_width_m, sun_samples } = settings;
         let given = |setting: &Setting| match setting {
             Setting::Finder => finder != Finder::Auto,
@@ -160,7 +177,7 @@ impl MethodRow {
             Setting::SunSamples => sun_samples.is_some(),
         };
         if let Some(setting) = Setting::ALL.into_iter().find(|setting| given(setting) && !self.uses(*setting)) {
-            return Err(Misfit::Setting { setting, subject });
+            return Err(Misfit::Setting { setting, engine, subject });
         }
         match finder {
             Finder::Auto => Ok(()),

@@ -29,7 +29,7 @@ pub(super) struct Common {
     pub(super) threads: Option<u16>,
 }
 
-/// Where.
+/// The site: its files, its place and its ground.
 #[derive(Debug, Args)]
 pub(super) struct SiteArgs {
     /// A site file, a folder that holds a site.toml, or one or more models; without a site file, a model's file or
@@ -53,7 +53,7 @@ pub(super) struct PlaceArgs {
     no_refraction: bool,
 }
 
-/// When.
+/// The study's window.
 #[derive(Debug, Args)]
 pub(super) struct WindowArgs {
     /// The study's date: 2026-09-18

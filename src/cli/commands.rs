@@ -93,8 +93,10 @@ fn check_show(asked: &ShadowArgs, is_drawn: bool) -> anyhow::Result<Option<Diagr
         ([_, _, ..], _) if diagram.is_some() => {
             wrong("mask and overdraw stand instead of all else; show one of them alone")
         }
-        (_, Viewpoint::Plan) if diagram.is_none() => {
-            wrong("is not for the plan; add --view camera or a side, or leave it out")
+        (show, Viewpoint::Plan) if diagram.is_none() => {
+            // a side has no volumes
+            let view = if show == [ShowArg::Components] { "camera or a side" } else { "camera" };
+            wrong(&format!("is not for the plan; add --view {view}, or leave it out"))
         }
         _ => Ok(diagram),
     }

@@ -48,7 +48,7 @@ impl Progress {
             }
             Event::Started { instants, tiles } => {
                 if *tiles > 1 {
-                    self.what = "instants of tiles";
+                    self.what = "instants, counted in each tile";
                 }
                 (self.begun, self.told) = ((0, Instant::now()), 0);
                 // One instant is done before a bar is seen.

@@ -69,7 +69,7 @@ pub fn find_comparison(
     shelf::find(shelf, on_event, |folder, on_event| {
         let (outcome, stores) = find(pair, before.cloned(), folder, true, on_event)?;
         for store in stores {
-            // what stays there is another time's to remove
+            // what cannot be removed now is removed once newer studies are kept
             let _ = store.finish();
         }
         Ok(outcome)

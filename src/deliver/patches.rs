@@ -86,7 +86,7 @@ pub fn find_patches(
 ) -> Result<PatchOutcome, DeliverError> {
     shelf::find(shelf, on_event, |folder, on_event| {
         let (outcome, store) = find(site, folder, Beside::Shelf, on_event)?;
-        // what stays there is another time's to remove
+        // what cannot be removed now is removed once newer studies are kept
         let _ = store.finish();
         Ok(outcome)
     })

@@ -43,7 +43,7 @@ impl Beside<'_> {
 /// Notes where a stopped study will continue, for whoever stopped it.
 pub(super) fn note_kept(kept: Option<PathBuf>, on_event: &mut OnEvent<'_>) {
     if let Some(path) = kept {
-        let note = format!("{} keeps what is done; the same command goes on from there", path.display());
+        let note = format!("{} keeps what is done; the same study goes on from there", path.display());
         let _ = on_event(Event::Note(note.into()));
     }
 }
@@ -51,7 +51,7 @@ pub(super) fn note_kept(kept: Option<PathBuf>, on_event: &mut OnEvent<'_>) {
 /// Notes what is kept when the work was ended while files were made, if there is a folder.
 pub(super) fn note_end(kept: Option<Option<PathBuf>>, on_event: &mut OnEvent<'_>) {
     if let Some(None) = kept {
-        let note = "what is done took little time and is not kept; the same command starts over";
+        let note = "what is done took little time and is not kept; the same study starts over";
         // who ended the work has said all there is to say
         let _ = on_event(Event::Note(note.to_owned().into()));
     }

@@ -40,7 +40,7 @@ pub fn volumes(
     }
     let open = sink.open(&[name.to_owned()], None)?;
     note(open.note(), on_event)?;
-    study::note_models(&site.notes, on_event)?;
+    study::note_site(site, on_event)?;
     let found = solids(&site.mesh, &site.casts, instant.to_sun, site.ground.level)?;
     tell(on_event, Event::Stage("volumes"))?;
     let plane = (site.ground.kind == GroundKind::Terrain).then(|| note_plane(site.ground.level));

@@ -1,4 +1,4 @@
-//! What `gnomon check` says of a mesh: `check --json`, and a table of the parts that are not clean and of the most
+//! What `gnomon check` says of a mesh: JSON, and a table of the parts that are not clean and of the most
 //! important places in them.
 
 use super::contents::{self, MostLines};
@@ -71,7 +71,7 @@ pub enum TableExtent {
     Whole,
 }
 
-/// `check --json`: triangles as the files have them, vertices as welded, and where what is wrong.
+/// The JSON of `gnomon check`: triangles as the files have them, vertices as welded, and where what is wrong.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.

@@ -169,7 +169,7 @@ fn anchor(anchor: &Anchor, scale_m: f64) -> Value {
     told
 }
 
-/// `convert --json`: what was written where, and what is in it.
+/// The JSON of `gnomon convert`: what was written where, and what is in it.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.

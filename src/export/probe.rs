@@ -1,4 +1,4 @@
-//! What `gnomon probe` says: tables, `probe --json`, and a CSV file with one line per interval.
+//! What `gnomon probe` says: tables, JSON, and a CSV file with one line per interval.
 
 use super::names::{field, plain};
 use super::report::{GroundReport, PlaceReport, ground_report, place_report, stamp, tz_version};
@@ -56,7 +56,7 @@ struct IntervalReport {
     blocked_after: String,
 }
 
-/// `probe --json`: `gnomon`, `place`, `tz_version`, the ground and `refraction` as in `profile.json`, then
+/// The JSON of `gnomon probe`: `gnomon`, `place`, `tz_version`, the ground and `refraction` as in `profile.json`, then
 ///
 /// - `probes`, each with its `name`, its `point` in metres, its `normal` (of length 1, or null),
 ///   how far it lies below the ground (`below_ground_m`, null where it does not) and its `days`; these with

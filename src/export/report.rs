@@ -1,4 +1,5 @@
-//! The answer in words and numbers: `profile.json`, `shadow --json`, `sun --json`, and the table of `gnomon sun`.
+//! The answer in words and numbers: `profile.json`, what `gnomon shadow` and `gnomon sun` say in JSON, and
+//! the table of `gnomon sun`.
 //!
 //! Keys and their order are a contract that other programs rely on; keys may be added, never changed.
 
@@ -193,7 +194,8 @@ pub fn profile_json<S>(
     shadow_json(&View::Plan(profile.grid), place, track, told)
 }
 
-/// `shadow --json`: as [`profile_json`]. Where a plan has region and cell, a camera stands as the site file writes it.
+/// The JSON of `gnomon shadow`: as [`profile_json`]. Where a plan has region and cell, a camera stands as the site file
+/// writes it.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
@@ -352,7 +354,7 @@ pub(super) fn said(notes: &[Message], words: &dyn Words) -> Vec<String> {
     notes.iter().map(|note| note.in_words(words)).collect()
 }
 
-/// `sun --json`: place, instants, days and notes as in [`profile_json`].
+/// The JSON of `gnomon sun`: place, instants, days and notes as in [`profile_json`].
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.

@@ -1,8 +1,8 @@
-//! What `gnomon verify` says: `verify --json`, and a table with a legend.
+//! What `gnomon verify` says: JSON, and a table with a legend.
 
 use super::{ExportError, report};
-use crate::choice::{Engine, Finder, Promise, Truth};
-use crate::message::Message;
+use crate::choice::{Engine, Finder, Method, MethodRow, Promise, Subject, TABLE, Truth};
+use crate::message::{Field, Message, Piece, Words, message, pieces};
 use crate::site::Site;
 use crate::sun::{Place, SunTrack};
 use crate::verification::{HoursDifference, Row, Verification};
@@ -33,6 +33,7 @@ struct VerifyReport<'a> {
     edge_share_bound: f64,
     holds: bool,
     techniques: Vec<RowReport<'a>>,
+    draw_no_plan: Vec<&'static str>,
     notes: Vec<String>,
 }
 
@@ -59,7 +60,7 @@ struct RowReport<'a> {
     holds: Option<bool>,
 }
 
-/// `verify --json`: place, plan and instants as in `profile.json`, then
+/// The JSON of `gnomon verify`: place, plan and instants as in `profile.json`, then
 ///
 /// - `instants_compared`: those with a sun;
 /// - `sun_samples`, `sun_samples_secs_per_instant`: the points of the sun's disc, and how long an instant took to them;
@@ -74,6 +75,7 @@ struct RowReport<'a> {
 ///   (`furthest_cells`); by how much the share of the sun, 0 to 1, and the hours of the profile are off
 ///   (`mean_share_off`, `largest_hours_off`, `mean_hours_off`); `secs_per_instant`; and `holds`, null where the technique
 ///   decides nothing;
+/// - `draw_no_plan`: the techniques that are left out, as there is no plan of theirs to compare;
 /// - `notes` as in `profile.json`: those given.
 ///
 /// # Errors
@@ -100,8 +102,16 @@ pub fn json(verification: &Verification, site: &Site, notes: &[Message]) -> Resu
         edge_share_bound: *edge_share,
         holds: verification.failed().next().is_none(),
         techniques: rows.iter().map(|row| row_report(row, verification.row_holds(row))).collect(),
+        draw_no_plan: draw_no_plan(),
         notes: report::said(notes, site.words),
     })
+}
+
+/// The words of the techniques that draw no plan, and so are not compared.
+fn draw_no_plan() -> Vec<&'static str> {
+    const PLANS: [Subject; 3] = [Subject::Top, Subject::Ground, Subject::Terrain];
+    let draws = |row: &MethodRow| PLANS.iter().any(|plan| row.draws(Engine::Auto, *plan));
+    TABLE.iter().filter(|row| row.method != Method::Auto && !draws(row)).map(|row| row.word).collect()
 }
 
 fn row_report(row: &Row, holds: Option<bool>) -> RowReport<'_> {
@@ -164,7 +174,7 @@ pub fn table(verification: &Verification, site: &Site) -> String {
     for row in &verification.rows {
         line(&mut table, row, verification.row_holds(row));
     }
-    legend(&mut table, verification);
+    legend(&mut table, verification, site.words);
     table
 }
 
@@ -259,7 +269,7 @@ fn line(table: &mut String, row: &Row, holds: Option<bool>) {
     );
 }
 
-fn legend(table: &mut String, verification: &Verification) {
+fn legend(table: &mut String, verification: &Verification, words: &dyn Words) {
     let Verification { sun_samples, disc_secs, rows, .. } = verification;
     // Writing to a String cannot fail.
     let _ = writeln!(
@@ -273,26 +283,28 @@ fn legend(table: &mut String, verification: &Verification) {
          \u{20}           texels; not among the cells that differ, but in the share and the hours\n\
          furthest: how far the furthest cell that differs lies from a shadow edge, in cells: 1 is right at the edge\n\
          share off: of the sun, in the mean of all cells; h off: hours of the profile, in the worst cell and in the mean\n\
-         {}",
+         {}\n\
+         left out, drawing no plan: {}",
         match rows.iter().map(|row| row.thin).max().unwrap_or(0) {
             0 => String::new(),
             thin => format!(", without up to {thin} beside what is thinner than a cell"),
         },
-        bound(verification),
+        bound(verification, words),
+        draw_no_plan().join(", "),
     );
 }
 
 /// The bound that has to hold, and the reason for it.
-fn bound(verification: &Verification) -> String {
-    let why = if verification.clean {
-        ""
-    } else {
-        "\n         (as not every part that casts is clean: gnomon check says more)"
-    };
-    format!(
-        "holds: of edge cells at most {}% differ, and of others one in {OTHERS}; of ray casting's none{why}",
+fn bound(verification: &Verification, words: &dyn Words) -> String {
+    let bound = format!(
+        "holds: of edge cells at most {}% differ, and of others one in {OTHERS}; of ray casting's none",
         100.0 * verification.edge_share
-    )
+    );
+    if verification.clean {
+        return bound;
+    }
+    let more = Piece::Where(Field::Check, pieces![": ", Field::Check, " says more"]);
+    message![bound, "\n         (as not every part that casts is clean", more, ")"].in_words(words)
 }
 
 /// Whether a row is of a technique that draws on both machines, and follows the processor's row.

@@ -198,7 +198,7 @@ struct VolumeLine<'a> {
     closed: bool,
 }
 
-/// `volumes --json`: what was written where, and for each volume whether it is closed.
+/// The JSON of `gnomon volumes`: what was written where, and for each volume whether it is closed.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.

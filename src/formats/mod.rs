@@ -9,6 +9,7 @@
 
 mod archive;
 mod cache;
+#[doc(hidden)]
 pub mod child;
 mod city;
 mod citygml;
@@ -22,6 +23,7 @@ mod exact;
 mod face_cutter;
 mod footprints;
 mod format;
+#[doc(hidden)]
 pub mod gltf;
 mod ifc;
 mod json_head;
@@ -37,23 +39,29 @@ mod refused;
 mod source;
 mod stl;
 mod table;
+#[doc(hidden)]
 pub mod terrain;
 mod tiles3d;
 mod vertices;
 mod whole;
 
-pub use cache::{CacheEntry, ModelCache};
+#[doc(hidden)]
+pub use cache::CacheEntry;
+pub use cache::ModelCache;
 #[cfg(feature = "desktop")]
 pub(crate) use companion::goes_with_one_of;
+#[doc(hidden)]
 pub use format::Format;
-pub use limits::{MAX_COMPONENTS, MAX_TRIANGLES, ReadLimits};
-pub use model::{
-    Anchor, AnchorPoint, Coordinates, LeftOut, Model, ModelError, ModelFault, PartKind, ReadOptions, SceneName,
-    SeeThrough, Up,
-};
+pub use limits::ReadLimits;
+#[doc(hidden)]
+pub use limits::{MAX_COMPONENTS, MAX_TRIANGLES};
+#[doc(hidden)]
+pub use model::{Anchor, AnchorPoint, Coordinates, LeftOut, Model, PartKind, ReadOptions, SceneName, SeeThrough};
+pub use model::{ModelError, ModelFault, Up};
 pub use model_reader::ModelReader;
 pub(crate) use names::{composed, on_disk};
 pub(crate) use refused::refusal;
+#[doc(hidden)]
 pub use table::{FORMATS, by_ending, read};
 pub(crate) use table::{is_model, keys_of, named_by};
 pub(crate) use terrain::POINT_CLASSES;

@@ -231,6 +231,7 @@ pub struct ModelError {
 #[derive(Debug)]
 pub enum ModelFault {
     /// The fault of a glTF file.
+    #[doc(hidden)]
     Gltf(gltf::Fault),
     /// The fault of a file of another format, with a hint; the file is the subject.
     Unusable(Message),

@@ -7,8 +7,8 @@ use crate::message::{Field, Message, message};
 use crate::sun::{MOST_DAYS, Reading, SunError, parse_date};
 use chrono::NaiveDate;
 
-/// The days of `--from-date` and `--to-date`, or else of the study's `dates` where the command line names no date of its
-/// own, and where they are asked; none where a single day is.
+/// The days from the first to the last that are asked, or else of the study's `dates` where the request names no date of
+/// its own, and where they are asked; none where a single day is.
 pub(super) fn several(
     written: &WrittenSite,
     asked: &Overrides,

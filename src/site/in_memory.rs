@@ -14,7 +14,8 @@ use crate::view::Grid;
 
 impl Site {
     /// A site with a mesh in the world frame, as from a file that says nothing else. Everything casts and receives,
-    /// technique and engine are chosen for the machine, and the camera sees everything. To change that, set the fields.
+    /// technique and engine are chosen for the machine, and the camera sees everything. To change that, set the fields;
+    /// a study refuses `casts` and `receives` that do not have one entry for each component.
     ///
     /// Without a height the ground is found as for a file: at the mesh's own zero, or at its lowest point. Components
     /// that say that they are terrain ([`crate::mesh::Component::is_terrain`]) are the ground.

@@ -248,13 +248,13 @@ pub(super) fn notes(model: &str, mends: &[Mend]) -> Vec<Message> {
     match scales[..] {
         [] => (),
         [scale] => notes.push(message![
-            format!("{model} looks as if it were in millimetres, so large is it");
-            "if it is, write ",
+            format!("{model} is so large that its unit may be millimetres");
+            "if so, write ",
             set_to("[[model]]", "scale", scale.to_string(), format!("`scale = {scale}` under [[model]]"))
         ]),
         _ => notes.push(message![
-            format!("{model} looks as if it were in centimetres or inches, so large is it");
-            "if it is, write ",
+            format!("{model} is so large that its unit may be centimetres or inches");
+            "if so, write ",
             set_to("[[model]]", "scale", "0.01".to_owned(), "`scale = 0.01`".to_owned()),
             " or ",
             set_to("[[model]]", "scale", "0.0254".to_owned(), "`scale = 0.0254` under [[model]]".to_owned())

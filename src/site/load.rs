@@ -226,7 +226,7 @@ impl Site {
 fn check_settings(asked: &Overrides) -> Result<(), SiteError> {
     if asked.hextree_depth.is_some() && asked.silhouette != Some(Finder::Hextree) {
         let message = message![
-            "is the depth of the paper's hextree";
+            "only the paper's hextree has a depth";
             "say ", (Field::Silhouette, "hextree"), " with it, or leave it out"
         ];
         return Err(refuse(FieldLocation::Field(Field::HextreeDepth), message));
@@ -259,7 +259,7 @@ fn patch_cell(receivers: Receivers, asked: &Overrides) -> Result<f64, SiteError>
         None => Ok(DEFAULT_CELL_M),
         Some(_) if receivers != Receivers::Patches => {
             let message = message![
-                "is the cell on surfaces";
+                "only surfaces have such cells";
                 "say ", (Field::Receivers, "surfaces"), " with it, or leave it out"
             ];
             Err(refuse(at, message))

@@ -32,9 +32,9 @@ pub struct Overrides {
     pub to: Option<String>,
     /// The time between two instants, such as `30min`.
     pub step: Option<String>,
-    /// `--resolution 1min|step`
+    /// How near together times of change are found, such as `1min`, or `step` for the instants alone.
     pub resolution: Option<String>,
-    /// `--from-date 2026-02-19`, the first of several days.
+    /// The first date of a study of several days.
     pub from_date: Option<String>,
     /// The last date of a study of several days.
     pub to_date: Option<String>,

@@ -34,8 +34,8 @@ impl TerrainFaces {
     }
 }
 
-/// What of a model's buildings does not stand on the terrain as one would think: a sentence without its stop that begins
-/// with the model's name. `components` are those of the model that are no terrain.
+/// How many of a model's buildings float above the terrain, reach below it or stand beyond its edge: a sentence without its
+/// stop that begins with the model's name. `components` are those of the model that are no terrain.
 pub(super) fn note(mesh: &Mesh, terrain: &TerrainFaces, components: &[usize], model: &str) -> Option<Message> {
     let faces: Vec<u32> = components.iter().flat_map(|&at| mesh.components[at].faces.clone()).collect();
     let raster = CellRaster::around(mesh, &faces)?;

@@ -25,7 +25,7 @@ impl LocatedText<'_> {
     }
 }
 
-/// The instants asked: `--at` alone, or the study's window with the command line before the file.
+/// The instants asked: a single one alone, or the study's window with the command line before the file.
 pub(super) fn track(place: &Place, written: &WrittenSite, asked: &Overrides) -> Result<SunTrack, SiteError> {
     let refraction = !asked.no_refraction;
     if let Some(time) = asked.instant {
@@ -78,7 +78,7 @@ fn date_in_file(written: &WrittenSite) -> Option<(String, FieldLocation)> {
     in_file(written, "date", written.site.study.date.as_ref().map(|date| date.0.as_str()))
 }
 
-/// The single instant of `--at`.
+/// The single instant that is asked instead of the study.
 fn single(place: &Place, written: &WrittenSite, asked: &Overrides, text: &str) -> Result<SunTrack, SiteError> {
     let given = [
         (Field::From, &asked.from),
@@ -120,7 +120,7 @@ fn window(place: &Place, written: &WrittenSite, asked: &Overrides) -> Result<Sun
     let [from, to, step] = [from, to, step].map(|(text, at)| LocatedText { text, at: at.clone() });
 
     let reading = from.reading()?;
-    // `--from` with its own date is asked later than the date in the file, and goes before it.
+    // a beginning with its own date is asked later than the date in the file, and goes before it.
     let overrides = reading.date.is_some() && asked.from.is_some();
     let date = date_of(date_asked.or(date_written.filter(|_| !overrides)))?;
     let window = Window {

@@ -70,7 +70,7 @@ fn refuse_beside(message: Message) -> SiteError {
 }
 
 impl WrittenSite {
-    /// Reads SITE: a site file, a folder that holds a `site.toml`, or a model, whose file or `--place` says its place.
+    /// Reads SITE: a site file, a folder that holds a `site.toml`, or a model, whose file or request says its place.
     ///
     /// # Errors
     /// What cannot be read, and what is wrong with a site file's form.

@@ -2,7 +2,7 @@
 
 use super::machine::Machine;
 use super::{Event, OnEvent, StudyError, subject_of, tell};
-use crate::choice::{Engine, Finder, Method, Receivers, Settings, Subject};
+use crate::choice::{Engine, Finder, Method, MethodRow, Receivers, Settings, Subject, TABLE, listed};
 use crate::gpu::{Gpu, GpuError};
 use crate::message::{Field, message};
 use crate::site::Site;
@@ -28,7 +28,7 @@ pub(super) fn choose(
     let subject = subject_of(site, view);
     let method = if site.method == Method::Auto { automatic(site, subject) } else { site.method };
     let engine = method.row().fit(site.engine, subject)?;
-    method.row().check(site.finder, &site.settings, subject)?;
+    method.row().check(site.finder, &site.settings, site.engine, subject)?;
     if method != Method::Auto {
         return Ok(match engine {
             Engine::Gpu => Machine::on(opened(gpu)?, method, site),
@@ -81,12 +81,18 @@ pub(super) fn counting(gpu: Option<&Arc<Gpu>>, site: &Site, view: &View, field: 
     if !method.row().counts || site.engine == Engine::Cpu {
         let message = message![
             "only techniques that count shadow volumes tell it, on the gpu";
-            "take ", (Field::Technique, Method::Hybrid.word()), " without ", (Field::Engine, "cpu"), ", or leave it out"
+            "take ", (Field::Technique, listed(&tellers(field), "or")), " without ", (Field::Engine, "cpu"), ", or leave it out"
         ];
         return Err(StudyError::Conflict { field, message });
     }
-    method.row().check(site.finder, &site.settings, subject_of(site, view))?;
+    method.row().check(site.finder, &site.settings, site.engine, subject_of(site, view))?;
     Ok(Machine::on(opened(gpu)?, method, site))
+}
+
+/// The words of the techniques that tell what a field asks of counting.
+fn tellers(field: Field) -> Vec<&'static str> {
+    let tells = |row: &&MethodRow| if field == Field::MaskDiagram { row.shows_mask } else { row.counts };
+    TABLE.iter().filter(tells).map(|row| row.word).collect()
 }
 
 /// The stencil, whose volumes and silhouettes are asked for: on a software adapter too.
@@ -99,7 +105,7 @@ pub(super) fn stencil_alone(gpu: Option<&Arc<Gpu>>, site: &Site, view: &View) ->
         ];
         return Err(StudyError::Conflict { field: Field::Volumes, message });
     }
-    Method::Stencil.row().check(site.finder, &site.settings, subject_of(site, view))?;
+    Method::Stencil.row().check(site.finder, &site.settings, site.engine, subject_of(site, view))?;
     let gpu = opened(gpu).map_err(|error| StudyError::NoVolumes(error.why()))?;
     Ok(Machine::on(gpu, Method::Stencil, site))
 }
@@ -120,7 +126,7 @@ fn not_side(view: &View, field: Field) -> Result<(), StudyError> {
 pub(crate) fn not_patches(site: &Site) -> Result<(), StudyError> {
     if site.receivers == Receivers::Patches {
         let message = message![
-            "surfaces are judged by gnomon profile alone";
+            "surfaces are judged in a study's profile alone";
             "take top or ground, or leave it out"
         ];
         return Err(StudyError::Conflict { field: Field::Receivers, message });

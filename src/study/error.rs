@@ -45,6 +45,17 @@ pub enum StudyError {
     NoPatch,
     /// The track has no instant.
     NoInstant,
+    /// A site made in memory has a list with another length than its mesh has components.
+    Components {
+        /// The field of [`Site`](crate::site::Site).
+        list: &'static str,
+        /// Its length.
+        length: usize,
+        /// The number of the mesh's components.
+        components: usize,
+    },
+    /// A tile is none of the study's.
+    OtherTile,
     /// No adapter, or not a good one.
     Gpu(#[from] GpuError),
     /// Volumes and silhouettes were requested of a technique other than the stencil.
@@ -94,6 +105,11 @@ impl Worded for StudyError {
                 message!["no component that receives has a surface"; "see ", setting("[[model]]", "receives", "`receives` in the site file")]
             }
             StudyError::NoInstant => message!["there is no instant to draw"],
+            StudyError::Components { list, length, components } => message![
+                format!("the site's list `{list}` has {length} entries, and its mesh {components} components");
+                "give it one entry for each component"
+            ],
+            StudyError::OtherTile => message!["the tile is none of this study's"; "take one of its own tiles"],
             StudyError::Gpu(error) => error.message(),
             StudyError::NoVolumes(why) => message![
                 Field::Volumes,
@@ -137,7 +153,7 @@ impl StudyError {
     }
 }
 
-/// So much memory as `--memory` takes it, no less than that.
+/// So much memory as a budget is written, no less than that.
 fn amount(bytes: u64) -> String {
     if bytes < 10 << 20 {
         return format!("{}KiB", bytes.div_ceil(1 << 10));

@@ -84,6 +84,20 @@ pub(crate) fn tell(on_event: &mut OnEvent<'_>, event: Event<'_>) -> Result<(), S
     }
 }
 
+/// Refuses a site whose lists do not have its components, which a program may have set, and passes on its notes.
+///
+/// # Errors
+/// [`StudyError::Components`]; [`StudyError::Interrupted`] if the listener ends the work.
+pub(crate) fn note_site(site: &Site, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+    let components = site.mesh.components.len();
+    for (list, flags) in [("casts", &site.casts), ("receives", &site.receives)] {
+        if flags.len() != components {
+            return Err(StudyError::Components { list, length: flags.len(), components });
+        }
+    }
+    note_models(&site.notes, on_event)
+}
+
 /// Passes on what the user should know of the models: how they were read, how exact they are, and where they stand.
 ///
 /// # Errors

@@ -2,7 +2,7 @@
 
 use super::again::persist;
 use super::chooser::{choose, not_patches};
-use super::{Event, OnEvent, SiteView, StudyError, judged, night, note_models, subject_of, tell, tiles};
+use super::{Event, OnEvent, SiteView, StudyError, judged, night, note_site, subject_of, tell, tiles};
 use crate::choice::Receivers;
 use crate::gpu::Gpu;
 use crate::mesh::Mesh;
@@ -40,7 +40,7 @@ pub fn frames<E: From<StudyError>>(
     on_frame: &mut dyn FnMut(&Frame<'_>) -> Result<(), E>,
 ) -> Result<Provenance, E> {
     not_patches(site)?;
-    note_models(&site.notes, on_event)?;
+    note_site(site, on_event)?;
     // each frame says itself what drew it: those that were given out stay
     let (mut given, mut fault) = (0, None);
     let drawn = persist(site, true, on_event, &mut |site, gpu, on_event| {

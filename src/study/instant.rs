@@ -3,7 +3,7 @@
 use super::again::persist;
 use super::chooser::{choose, counting, not_patches, stencil_alone};
 use super::{Event, InstantOutcome, InstantWants, NOTHING_COUNTED, OnEvent, SiteView, Stopwatch, StudyError};
-use super::{judged, night, note_models, subject_of, tell, tiles};
+use super::{judged, night, note_site, subject_of, tell, tiles};
 use crate::gpu::Gpu;
 use crate::message::{Field, aside, message};
 use crate::shadow::{Technique, plan_surface};
@@ -25,7 +25,7 @@ pub fn instant(
     on_event: &mut OnEvent<'_>,
 ) -> Result<InstantOutcome, StudyError> {
     not_patches(site)?;
-    note_models(&site.notes, on_event)?;
+    note_site(site, on_event)?;
     // volumes are drawn on an adapter alone, and counted there
     let can = !wants.volumes && !wants.silhouette && wants.counted.is_none();
     persist(site, can, on_event, &mut |site, gpu, on_event| once(gpu, site, view, wants, on_event))

@@ -46,7 +46,7 @@ pub use compare::compare;
 pub(crate) use daylight::day_and_night;
 pub use error::StudyError;
 pub use event::{Event, OnEvent};
-pub(crate) use event::{gather, note_models, tell};
+pub(crate) use event::{gather, note_models, note_site, tell};
 #[doc(hidden)]
 pub use frames::{Frame, frames};
 #[doc(hidden)]

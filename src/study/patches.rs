@@ -5,7 +5,7 @@ use super::chooser::opened;
 use super::event::{gather, note_instants_alone};
 use super::gaps::Gaps;
 use super::patch_sum::PatchSum;
-use super::{Event, OnEvent, Stopwatch, StudyError, day_and_night, fingerprint, note_models, tell};
+use super::{Event, OnEvent, Stopwatch, StudyError, day_and_night, fingerprint, note_site, tell};
 use crate::choice::{Engine, Method, Misfit, Settings, Subject};
 use crate::gpu::Gpu;
 use crate::mesh::Mesh;
@@ -75,7 +75,7 @@ pub(crate) fn patches_kept(
     if day_secs > most_secs {
         return Err(StudyError::TooLong { day_secs, most_secs });
     }
-    note_models(&site.notes, on_event)?;
+    note_site(site, on_event)?;
     let mut notes = Vec::new();
     let hear: &mut OnEvent<'_> = &mut |event| {
         gather(&event, &site.notes, &mut notes);
@@ -223,12 +223,15 @@ fn choice(site: &Site) -> Result<Choice, Misfit> {
     method.row().fit(site.engine, subject)?;
     // of auto's two techniques one uses as much as the other
     let row = if method == Method::Auto { Method::SoftTexture.row() } else { method.row() };
-    row.check(site.finder, &site.settings, subject)?;
+    row.check(site.finder, &site.settings, site.engine, subject)?;
     match method {
         Method::Auto => Ok(Choice::Auto),
         Method::SoftTexture => Ok(Choice::Texture),
         Method::RayCast => Ok(Choice::Rays),
-        _ => Err(Misfit::Technique { method, subject }),
+        // none of these draws patches; a technique that does has its line above
+        Method::Stencil | Method::Projected | Method::ShadowMap | Method::Hybrid | Method::Smoothie => {
+            Err(Misfit::Technique { method, subject })
+        }
     }
 }
 
@@ -260,7 +263,7 @@ fn painter(
     }
 }
 
-/// Says what of the patches is not as one would think.
+/// Notes texels that are coarser than asked, areas that do not count, and patches whose outer side is not known.
 fn note_patches(patches: &Patches, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     if patches.list.is_empty() {
         return Err(StudyError::NoPatch);
@@ -285,11 +288,12 @@ fn note_patches(patches: &Patches, on_event: &mut OnEvent<'_>) -> Result<(), Stu
     }
     let two_sided = || patches.list.iter().filter(|patch| patch.two_sided);
     if two_sided().next().is_some() {
+        let count = two_sided().count();
         let note = format!(
-            "of {} of {} patches ({:.0} m²) nothing tells the outer side; they are judged on the side that faces the sun",
-            two_sided().count(),
+            "{count} of {} patches ({:.0} m²) {} no known outer side: the side that faces the sun is judged",
             patches.list.len(),
-            two_sided().map(|patch| patch.area_m2).sum::<f64>()
+            two_sided().map(|patch| patch.area_m2).sum::<f64>(),
+            if count == 1 { "has" } else { "have" }
         );
         tell(on_event, Event::Note(note.into()))?;
     }

@@ -6,7 +6,7 @@ use super::event::{gather, note_instants_alone, note_tiles};
 use super::tile_sum::TileSum;
 use super::tiled_study::TiledStudy;
 use super::{CountingPurpose, Event, OnEvent, Outcome, SiteView, Stopwatch, StudyError, Wants};
-use super::{day_and_night, note_models, subject_of, tell, tiles};
+use super::{day_and_night, note_site, subject_of, tell, tiles};
 use crate::gpu::Gpu;
 use crate::mesh::Mesh;
 use crate::message::{Field, Message, aside, message};
@@ -83,7 +83,7 @@ impl<'a> TiledStudy<'a> {
     /// [`StudyError`]; choices that exclude each other; [`StudyError::LittleMemory`].
     pub fn new(site: &'a Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<TiledStudy<'a>, StudyError> {
         not_patches(site)?;
-        note_models(&site.notes, on_event)?;
+        note_site(site, on_event)?;
         let mut notes = Vec::new();
         let study = TiledStudy::of(None, site, wants, &mut |event| {
             gather(&event, &site.notes, &mut notes);

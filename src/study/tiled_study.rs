@@ -46,8 +46,11 @@ impl TiledStudy<'_> {
     /// together. Where the device fails, so does this.
     ///
     /// # Errors
-    /// [`StudyError::Shadow`], where drawing failed.
+    /// [`StudyError::OtherTile`] for a tile of another study; [`StudyError::Shadow`], where drawing failed.
     pub fn sum(&self, tile: Tile, instants: &[sun::Instant]) -> Result<Shaded, StudyError> {
+        if !self.tiles.contains(&tile) {
+            return Err(StudyError::OtherTile);
+        }
         let mut technique = self.look().technique_of(tile)?;
         let mut sum = TileSum::new(self.site, self.drawn().resolution_secs, self.machine.gpu(), &tile);
         let track = &self.site.track.instants;

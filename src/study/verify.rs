@@ -1,4 +1,4 @@
-//! Compares every technique with ray casting, so that users can see on their own site how far to trust each.
+//! Compares every technique that draws a plan with ray casting, so that users can see on their own site how far to trust each.
 //!
 //! [`verify`] makes the techniques, and [`hold`] compares them with the truth, instant by instant. Ray casting is
 //! compared with itself without its trees, at some cells.
@@ -6,7 +6,7 @@
 use super::again::persist;
 use super::chooser::{not_patches, opened};
 use super::machine::Machine;
-use super::{Event, OnEvent, SiteView, StudyError, day_and_night, note_models, subject_of, tell, tiles};
+use super::{Event, OnEvent, SiteView, StudyError, day_and_night, note_site, subject_of, tell, tiles};
 use crate::choice::{Engine, Method, MethodRow, Promise, Subject, TABLE, Truth};
 use crate::gpu::Gpu;
 use crate::mesh::report;
@@ -44,14 +44,14 @@ pub struct Trial {
     pub technique: Box<dyn Technique>,
 }
 
-/// Compares every technique with ray casting, at the study's instants.
+/// Compares every technique that draws a plan with ray casting, at the study's instants.
 ///
 /// # Errors
 /// [`StudyError`]; a study all at night, and a machine without a graphics adapter, before anything is drawn.
 pub fn verify(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Verification, StudyError> {
     not_patches(site)?;
     by_day(site)?;
-    note_models(&site.notes, on_event)?;
+    note_site(site, on_event)?;
     // whoever asks wants every technique: none takes another's place
     persist(site, false, on_event, &mut |site, gpu, on_event| {
         let gpu = opened(gpu).map_err(|error| StudyError::NoVerification(error.why()))?;

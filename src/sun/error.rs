@@ -126,7 +126,7 @@ pub enum SunError {
     NoSuchTime {
         /// What was asked.
         local: NaiveDateTime,
-        /// Where.
+        /// The time zone of that clock.
         zone: Zone,
         /// The clock at the jump, before it.
         before: String,
@@ -141,7 +141,7 @@ pub enum SunError {
     TwoReadings {
         /// What was asked.
         local: NaiveDateTime,
-        /// Where.
+        /// The time zone of that clock.
         zone: Zone,
         /// The first one, with its offset.
         earlier: String,
@@ -154,7 +154,7 @@ pub enum SunError {
     WrongOffset {
         /// What was asked.
         local: NaiveDateTime,
-        /// Where.
+        /// The time zone of that clock.
         zone: Zone,
         /// What was given.
         offset: String,

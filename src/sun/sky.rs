@@ -6,7 +6,7 @@ use chrono::{DateTime, TimeDelta};
 /// With what the sun of a study is found.
 #[derive(Clone, Copy, Debug)]
 pub struct Sky<'a> {
-    /// Where.
+    /// The place from which the sun is seen.
     pub place: &'a Place,
     /// ΔT, seconds.
     pub delta_t_secs: f64,

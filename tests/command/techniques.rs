@@ -168,6 +168,7 @@ fn show_draws_the_mask_and_overdraw() {
     }
     for (options, said) in [
         ("--show mask", "--technique hybrid"),
+        ("--show overdraw --technique projected", "--technique stencil or hybrid without --engine cpu"),
         ("--show overdraw --technique smoothie", "--show overdraw"),
         ("--show mask,overdraw --technique hybrid", "alone"),
         ("--show overdraw,volumes --view camera", "alone"),

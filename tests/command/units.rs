@@ -64,9 +64,9 @@ fn mends(model: &Model, keys: &str) -> Vec<Mend> {
 #[test]
 fn another_unit_is_told_with_its_key() {
     for (units, words) in [
-        (1000.0, "model.glb looks as if it were in millimetres"),
-        (100.0, "model.glb looks as if it were in centimetres or inches"),
-        (39.37, "model.glb looks as if it were in centimetres or inches"),
+        (1000.0, "model.glb is so large that its unit may be millimetres"),
+        (100.0, "model.glb is so large that its unit may be centimetres or inches"),
+        (39.37, "model.glb is so large that its unit may be centimetres or inches"),
     ] {
         let folder = folder(&tower(units), "");
         let study = gnomon(folder.path(), "shadow . --at 2026-09-18T12:00 --mask m.png --engine cpu --size 50");

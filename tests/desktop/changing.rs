@@ -150,7 +150,7 @@ fn undo_passes_over_the_hours_that_came() {
     assert!(!shown(&harness));
 }
 
-/// What looks like millimetres, and like a model on its side, is mended by a button, and undone.
+/// What its unit may be millimetres, and like a model on its side, is mended by a button, and undone.
 #[test]
 fn a_unit_and_an_axis_are_mended_by_a_button() {
     let folder = tempfile::tempdir().unwrap();
@@ -163,7 +163,7 @@ fn a_unit_and_an_axis_are_mended_by_a_button() {
     );
     std::fs::write(&site, text).unwrap();
     let mut harness = window(Some(&site));
-    harness.get_by_label_contains("looks as if it were in millimetres");
+    harness.get_by_label_contains("its unit may be millimetres");
     click(&mut harness, "Set scale = 0.001");
     settle(&mut harness);
     assert_eq!(harness.state().site_file().model[0].scale, Some(0.001));
@@ -181,7 +181,7 @@ fn a_unit_and_an_axis_are_mended_by_a_button() {
             (scale, &None)
         );
     }
-    harness.get_by_label_contains("looks as if it were in millimetres");
+    harness.get_by_label_contains("its unit may be millimetres");
 }
 
 /// The panel has the scale of a single model; a note on one of several names the site file's key.

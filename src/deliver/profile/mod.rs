@@ -109,7 +109,7 @@ pub fn find_hours(
         if let Some(bits) = keeping.bits.take() {
             hours.outlines = outlines_of(site, bits.shadows()?);
         }
-        // what stays there is another time's to remove
+        // what cannot be removed now is removed once newer studies are kept
         let _ = keeping.finish();
         Ok(hours)
     })

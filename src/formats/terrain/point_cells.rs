@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 const IN_A_CELL: f64 = 2.0;
 /// Where the ground is not classified, the lowest of so many points in a cell stands for it, on average.
 const IN_A_LOWEST: f64 = 30.0;
-/// By how much of the points' deviations their usual one is told.
+/// The share of the points that lie no farther from their heights than the usual deviation.
 const USUAL: f64 = 0.9;
 
 /// Points on a raster.

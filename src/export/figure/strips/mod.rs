@@ -33,8 +33,8 @@ const GAP: f64 = 62.0;
 const LOWEST: f64 = 60.0;
 const HIGHEST: f64 = 300.0;
 
-/// `gnomon probe --out`: a strip for each probe. Where not all of them fit, the drawing says where the others are, in
-/// the face's `words`.
+/// The drawing of `gnomon probe`: a strip for each probe. Where not all of them fit, the drawing says where the others
+/// are, in the face's `words`.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the page cannot be drawn or encoded.
