@@ -4,6 +4,7 @@ mod closed_forms;
 mod said;
 
 use gnomon::choice::{Engine, Method, Receivers};
+use gnomon::site::typed::resolution_secs;
 use gnomon::site::{Overrides, Site};
 use gnomon::study::{self, Event, PatchOutcome, Wants, patches};
 use gnomon::view::Bits;
@@ -13,8 +14,9 @@ use std::path::Path;
 const SITES: [&str; 3] = ["headquarters", "industry", "tower"];
 const MINUTES: usize = 60;
 
-fn some(text: &str) -> Option<String> {
-    Some(text.to_owned())
+/// Seconds as they are written; `step` is none.
+fn secs(text: &str) -> Option<u32> {
+    Some(resolution_secs(text).expect("a duration"))
 }
 
 fn sample(name: &str, asked: Overrides) -> Site {
@@ -52,7 +54,7 @@ fn changes(minutes: &[Bits], cell: usize) -> [usize; 2] {
 fn are_those_of_minutes(name: &str, asked: &Overrides) {
     let draws_whole = asked.engine == Some(Engine::Gpu) || asked.receivers == Some(Receivers::Ground);
     let of = |step: &str, resolution: &str| {
-        sample(name, Overrides { step: some(step), resolution: some(resolution), ..asked.clone() })
+        sample(name, Overrides { step_secs: secs(step), resolution_secs: secs(resolution), ..asked.clone() })
     };
     let (stepped, minutes) = study(&of("1min", "step"));
     let hourly = of("1h", "1min");
@@ -115,8 +117,10 @@ fn off(one: &PatchOutcome, other: &PatchOutcome, secs: u32) -> usize {
 #[test]
 fn an_adapter_draws_facades_at_every_moment() {
     let of = |engine: Engine, step: &str, resolution: &str| {
-        let site =
-            sample("tower", Overrides { step: some(step), resolution: some(resolution), ..Overrides::default() });
+        let site = sample(
+            "tower",
+            Overrides { step_secs: secs(step), resolution_secs: secs(resolution), ..Overrides::default() },
+        );
         let site = Site { receivers: Receivers::Patches, method: Method::SoftTexture, engine, ..site };
         patches(&site, 8.0, &mut |_| ControlFlow::Continue(())).expect("hours")
     };

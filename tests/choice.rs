@@ -85,7 +85,7 @@ fn techniques_draw_what_the_table_says() {
                     technique: Some(row.method),
                     engine: Some(engine),
                     receivers: receivers.parse().ok(),
-                    at: Some("2026-09-18T15:00".to_owned()),
+                    at: "2026-09-18T15:00".parse().ok(),
                     size: Some(16),
                     ..Overrides::default()
                 };

@@ -19,8 +19,9 @@ use std::ops::ControlFlow::{self, Break, Continue};
 use std::path::{Path, PathBuf};
 
 fn loaded(folder: &Path, step: &str) -> Site {
-    let step = Some(step.to_owned());
-    Site::load(folder, &Overrides { engine: Some(Engine::Cpu), size: Some(150), step, ..Overrides::default() }).unwrap()
+    let step_secs = gnomon::sun::parse_duration_secs(step).ok();
+    let asked = Overrides { engine: Some(Engine::Cpu), size: Some(150), step_secs, ..Overrides::default() };
+    Site::load(folder, &asked).unwrap()
 }
 
 fn inside(path: &Path) -> Folder<'_> {
@@ -216,8 +217,8 @@ fn patches_go_on_from_where_they_were_stopped() {
 fn comparison_goes_on_from_where_it_was_stopped() {
     let folder = site();
     let path = folder.path();
-    let step = Some("10min".to_owned());
-    let asked = Overrides { engine: Some(Engine::Cpu), size: Some(100), step, ..Overrides::default() };
+    let step_secs = Some(600);
+    let asked = Overrides { engine: Some(Engine::Cpu), size: Some(100), step_secs, ..Overrides::default() };
     let mut pair = Pair::load(path, path, &asked).unwrap();
     pair.before.casts.fill(false);
     let shelf = path.join("studies");
@@ -302,7 +303,7 @@ fn every_deliverable_goes_into_memory() {
     let camera = Site { receivers: Receivers::Patches, ..site.clone() };
     let pair = Pair::load(path, path, &Overrides { engine: Some(Engine::Cpu), size: Some(60), ..Overrides::default() });
     let pair = pair.unwrap();
-    let point = Overrides { point: Some("12,-3,4.5".to_owned()), ..Overrides::default() };
+    let point = Overrides { point: Some(glam::dvec3(12.0, -3.0, 4.5)), ..Overrides::default() };
     let probing = load_probes(path, &point).unwrap();
     let [one, other, third, of_volumes] =
         ["one.png", "other.png", "third.csv", "volumes.glb"].map(|name| path.join(name));
@@ -346,7 +347,7 @@ fn every_deliverable_goes_into_memory() {
 fn known_time_is_the_one_that_is_written() {
     let folder = site();
     for at in ["2026-06-21T13:00", "2026-10-25T02:30+01:00", "2026-10-25T02:30+02:00"] {
-        let written = Overrides { at: Some(at.to_owned()), ..Overrides::default() };
+        let written = Overrides { at: at.parse().ok(), ..Overrides::default() };
         let written = Site::load(folder.path(), &written).unwrap();
         let instant = Some(written.track.instants[0].time);
         let known = Site::load(folder.path(), &Overrides { instant, ..Overrides::default() }).unwrap();

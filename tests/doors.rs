@@ -233,3 +233,11 @@ fn checker_sees_what_is_shown() {
         pub(crate) use own::Six;\n#[cfg(feature = \"test-hooks\")]\npub use own::seven;\n#[doc(hidden)]\n#[derive(Clone)]\npub enum Eight {";
     assert_eq!(shown(file), ["Four", "Three", "chrono", "glam", "sun"]);
 }
+
+/// What a face asks is typed: text is parsed by the face that takes it.
+#[test]
+fn what_is_asked_is_typed() {
+    let fields = std::fs::read_to_string("src/site/overrides.rs").expect("the source");
+    let of_text: Vec<&str> = fields.lines().filter(|line| line.contains("Option<String>")).collect();
+    assert!(fields.contains("pub struct Overrides") && of_text.is_empty(), "{of_text:?}");
+}

@@ -386,10 +386,10 @@ fn a_bare_model_needs_no_place_where_its_file_has_one() {
     let folder = folder("", &["house.glb"]);
     let path = folder.path().join("house.glb");
     let asked = Overrides {
-        date: Some("2026-06-21".to_owned()),
-        from: Some("10:00".to_owned()),
-        to: Some("12:00".to_owned()),
-        step: Some("1h".to_owned()),
+        date: "2026-06-21".parse().ok(),
+        from: "10:00".parse().ok(),
+        to: "12:00".parse().ok(),
+        step_secs: Some(3600),
         ..Overrides::default()
     };
     let site = Site::load_with(&path, &asked, |_, _| Ok(anchored(vec![map_anchor(0.0)]))).expect("a place");
@@ -399,7 +399,7 @@ fn a_bare_model_needs_no_place_where_its_file_has_one() {
     let zero =
         Site::load_with(&path, &asked, |_, _| Ok(anchored(vec![site_anchor([0.0, 0.0], None)]))).expect_err("no place");
     assert!(zero.to_string().contains("0, 0") && zero.is_wrong_use(), "{zero}");
-    let asked = Overrides { place: Some("49.2,8.4366".to_owned()), ..asked };
+    let asked = Overrides { place: Some([49.2, 8.4366]), ..asked };
     let site = Site::load_with(&path, &asked, |_, _| Ok(anchored(vec![map_anchor(0.0)]))).expect("the user's");
     assert_eq!(site.place.latitude_deg, 49.2);
     assert!(said(&site.notes).iter().any(|note| note.contains("11.1 km from the place")), "{:?}", site.notes);

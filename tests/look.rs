@@ -33,7 +33,7 @@ struct Pair {
 
 fn sample(name: &str, at: &str) -> Site {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("sites").join(name);
-    Site::load(&path, &Overrides { at: Some(at.to_owned()), ..Overrides::default() }).expect("a sample site")
+    Site::load(&path, &Overrides { at: at.parse().ok(), ..Overrides::default() }).expect("a sample site")
 }
 
 /// Both see the same faces and have the same mask, of rays, so that they differ by their look alone.

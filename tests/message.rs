@@ -87,7 +87,7 @@ fn site_files_have_keys_and_faces_have_words() {
     let told = said(&days("2026-09-18T10:00"), &Overrides::default());
     assert!(told.contains("[study] from: ") && told.ends_with("; leave it out, and name days with date"), "{told}");
     let from = Overrides { from: some("2026-09-18T10:00"), date: some("2026-09-18"), ..Overrides::default() };
-    let from = Overrides { from_date: from.date.clone(), to_date: from.date.clone(), date: None, ..from };
+    let from = Overrides { from_date: from.date, to_date: from.date, date: None, ..from };
     let told = said(&days("10:00"), &from);
     assert!(told.starts_with("--from: ") && told.ends_with("; leave it out, and name days with --date"), "{told}");
 }

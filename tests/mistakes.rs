@@ -1,5 +1,6 @@
 //! What every mistake in a site file or an option is told: one line, the file, the key and the way out.
 
+use crate::shared::program::fails;
 use crate::site::{SITE, folder, load, some};
 use gnomon::cli::Options;
 use gnomon::formats::{Model, ReadOptions};
@@ -138,23 +139,46 @@ fn wrong_options_are_wrong_use() {
         assert!(error.in_words(&Options).contains(word), "{error}");
     };
     let none = Overrides::default;
-    wrong(Overrides { place: some("48,2"), ..none() }, "--place");
-    wrong(Overrides { date: some("soon"), ..none() }, "--date");
-    wrong(Overrides { from: some("25:00"), ..none() }, "--from");
+    wrong(Overrides { place: Some([48.0, 2.0]), ..none() }, "--place");
     wrong(Overrides { from: some("2026-03-29T02:30"), ..none() }, "2026-03-29T03:30+02:00");
     wrong(Overrides { date: some("2026-10-25"), to: some("02:30"), from: some("1:00"), ..none() }, "--to");
-    wrong(Overrides { step: some("soon"), ..none() }, "--step");
-    wrong(Overrides { at: some("noonish"), ..none() }, "--at");
-    wrong(Overrides { at: some("2026-09-18T15:00"), step: some("1h"), ..none() }, "--step");
+    wrong(Overrides { step_secs: Some(0), ..none() }, "--step");
+    wrong(Overrides { at: some("2026-09-18T15:00"), step_secs: Some(3600), ..none() }, "--step");
     wrong(Overrides { at: some("2026-09-18T15:00"), date: some("2026-09-19"), ..none() }, "two dates");
-    wrong(Overrides { region: some("1,2,3"), ..none() }, "--region");
-    wrong(Overrides { region: some("1,2,3,x"), ..none() }, "--region");
-    wrong(Overrides { region: some("3,2,1,4"), ..none() }, "west 3");
+    wrong(Overrides { region: Some([1.0, 2.0, f64::NAN, 4.0]), ..none() }, "--region");
+    wrong(Overrides { region: Some([3.0, 2.0, 1.0, 4.0]), ..none() }, "west 3");
     wrong(Overrides { cell: Some(f64::NAN), ..none() }, "--cell");
     wrong(Overrides { cell: Some(1e-9), ..none() }, "at least");
     wrong(Overrides { cell: Some(1.0), size: Some(1), ..none() }, "--cell");
     wrong(Overrides { size: Some(0), ..none() }, "--size");
     wrong(Overrides { size: Some(u32::MAX), ..none() }, "2³¹");
+}
+
+/// What an option says is read before anything else, and what cannot be is told by the option.
+#[test]
+fn values_that_cannot_be_read_name_their_option() {
+    let folder = folder(SITE);
+    for (command, option, value, word) in [
+        ("sun", "--place", "Vienna", "\"Vienna\" is no place"),
+        ("sun", "--place", "98,16", "latitude 98 is not between -90 and 90 degrees"),
+        ("sun", "--date", "soon", "soon"),
+        ("sun", "--from-date", "soon", "soon"),
+        ("sun", "--to-date", "soon", "soon"),
+        ("sun", "--from", "25:00", "25:00"),
+        ("sun", "--to", "25:00", "25:00"),
+        ("sun", "--step", "soon", "soon"),
+        ("sun", "--at", "noonish", "noonish"),
+        ("volumes", "--at", "noonish", "noonish"),
+        ("shadow --at 12:00", "--date", "soon", "soon"),
+        ("profile", "--resolution", "soon", "\"soon\" is no resolution"),
+        ("profile", "--region", "1,2,3", "\"1,2,3\" is not 4 numbers with commas between them"),
+        ("profile", "--region", "1,2,3,x", "write for example --region -300,-300,300,300"),
+        ("probe", "--point", "1,2", "write for example --point 12,-3,4.5"),
+        ("probe --point 1,2,3", "--normal", "up", "write for example --normal 0,-1,0"),
+        ("probe --point 1,2,3", "--from", "soon", "soon"),
+    ] {
+        fails(folder.path(), &format!("{command} . {option} {value}"), 2, &[&format!("{option}: "), word]);
+    }
 }
 
 #[test]

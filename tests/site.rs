@@ -65,8 +65,8 @@ pub(crate) fn load(site: &str, asked: &Overrides) -> Result<Site, SiteError> {
     Site::load_with(folder(site).path(), asked, tower)
 }
 
-pub(crate) fn some(text: &str) -> Option<String> {
-    Some(text.to_owned())
+pub(crate) fn some<T: std::str::FromStr<Err: std::fmt::Debug>>(text: &str) -> Option<T> {
+    Some(text.parse().expect("a value"))
 }
 
 #[test]
@@ -122,16 +122,16 @@ fn long_shadows_are_cut() {
 
 #[test]
 fn grids_in_whole_cells_from_the_north_west() {
-    let grid = |region: &str, cell, size| {
-        let asked = Overrides { region: some(region), cell, size, ..Overrides::default() };
+    let grid = |region, cell, size| {
+        let asked = Overrides { region: Some(region), cell, size, ..Overrides::default() };
         load(SITE, &asked).unwrap().grid
     };
-    let given = grid("-10,-20,30.3,40", Some(0.5), None);
+    let given = grid([-10.0, -20.0, 30.3, 40.0], Some(0.5), None);
     assert_eq!((given.west, given.north, given.width, given.height), (-10.0, 40.0, 81, 120));
     assert_eq!(given.region(), [-10.0, -20.0, 30.5, 40.0]);
-    let sized = grid("-10,-20,30,40", None, Some(600));
+    let sized = grid([-10.0, -20.0, 30.0, 40.0], None, Some(600));
     assert_eq!((sized.width, sized.height, sized.cell), (400, 600, 0.1));
-    assert_eq!(grid("0,0,1,1", Some(50.0), None).width, 1);
+    assert_eq!(grid([0.0, 0.0, 1.0, 1.0], Some(50.0), None).width, 1);
     let plan = format!("{SITE}\n[plan]\nregion = [-100, -50, 100, 50]\ncell = 0.5\n");
     let site = load(&plan, &Overrides::default()).unwrap();
     assert_eq!((site.grid.width, site.grid.height), (400, 200));
@@ -155,7 +155,7 @@ fn options_go_before_the_file() {
         date: some("2026-10-25"),
         from: some("02:30+02:00"),
         to: some("02:30+01:00"),
-        step: some("15min"),
+        step_secs: Some(900),
         technique: Some(Method::RayCast),
         engine: Some(Engine::Cpu),
         receivers: Some(Receivers::Ground),
@@ -184,12 +184,12 @@ fn a_site_is_a_file_a_folder_or_a_model_with_its_place() {
     let model = folder.path().join("tower.glb");
     let error = Site::load_with(&model, &none, tower).expect_err("no place, also by its file");
     assert!(error.is_wrong_use() && error.in_words(&Options).contains("--place"), "{error}");
-    let asked = Overrides { place: some("-33.8568, 151.2153"), at: some("2026-09-18T15:00"), ..none.clone() };
+    let asked = Overrides { place: Some([-33.8568, 151.2153]), at: some("2026-09-18T15:00"), ..none.clone() };
     let LoadedSun { place, track, .. } = sun(&model, &asked).unwrap();
     assert_eq!((place.latitude_deg, place.time_zone.name()), (-33.8568, "Australia/Sydney"));
     assert_eq!(track.instants.len(), 1);
     assert_eq!(Site::load_with(&model, &asked, tower).unwrap().casts, [true, true]);
-    let bare = Overrides { place: some("95,0"), ..asked.clone() };
+    let bare = Overrides { place: Some([95.0, 0.0]), ..asked.clone() };
     let error = sun(&model, &bare).expect_err("beyond the pole");
     assert!(error.is_wrong_use() && error.in_words(&Options).contains("--place"), "{error}");
     for (path, word) in
@@ -347,7 +347,7 @@ fn models_are_read_once_as_long_as_they_stay() {
     assert_eq!(models.component_counts(), [2]);
     let mut other = WrittenSite::read(folder.path(), &Overrides::default()).unwrap();
     other.site.model[0].casts = gnomon::site::file::Names::Some(vec!["yard".to_owned()]);
-    other.site.study.step = some("1h");
+    other.site.study.step = Some("1h".to_owned());
     assert!(models.are_those_of(&other));
     let again = Site::with_models(&other, &Overrides::default(), || Ok(models.clone())).unwrap();
     let fresh = Site::of(&other, &Overrides::default(), tower).unwrap();

@@ -153,11 +153,11 @@ fn asked(engine: Engine, receivers: Receivers) -> Overrides {
     Overrides {
         engine: Some(engine),
         receivers: Some(receivers),
-        from: Some("15:10".into()),
-        to: Some("22:07".into()),
-        step: Some("25min".into()),
+        from: "15:10".parse().ok(),
+        to: "22:07".parse().ok(),
+        step_secs: Some(25 * 60),
         // masks are of the instants
-        resolution: Some("step".into()),
+        resolution_secs: Some(0),
         size: Some(150),
         ..Overrides::default()
     }
@@ -229,7 +229,7 @@ fn shadow_sun_and_night_fill_the_window() {
 fn a_profile_of_one_instant_is_empty() {
     for engine in [Engine::Cpu, Engine::Gpu] {
         for at in ["2026-09-18T15:00", "2026-09-18T23:30"] {
-            let asked = Overrides { engine: Some(engine), at: Some(at.into()), size: Some(60), ..Overrides::default() };
+            let asked = Overrides { engine: Some(engine), at: at.parse().ok(), size: Some(60), ..Overrides::default() };
             let site = load(SITE, &asked).unwrap();
             let (sun, profile) = sunlit(&site);
             assert_eq!((profile.day_secs, profile.night_secs), (0, 0));

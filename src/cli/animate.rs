@@ -9,7 +9,7 @@ use super::progress::Progress;
 use crate::deliver::Folder;
 use crate::deliver::animation::{AnimationAnswer, AnimationRequest, FPS, WIDTH, animation};
 use crate::export::figure;
-use crate::site::{Overrides, Site};
+use crate::site::{Overrides, Site, SiteError};
 use crate::study::Stopwatch;
 use clap::{Args, value_parser};
 use std::path::PathBuf;
@@ -45,16 +45,16 @@ pub(super) struct AnimateArgs {
 }
 
 impl AnimateArgs {
-    fn overrides(&self) -> Overrides {
-        let asked = self.plan.onto(self.draw.onto(self.window.onto(self.model.onto(self.site.overrides()))));
-        Overrides { side: self.view.side(), ..asked }
+    fn overrides(&self) -> Result<Overrides, SiteError> {
+        let asked = self.draw.onto(self.window.onto(self.model.onto(self.site.overrides()?))?);
+        Ok(Overrides { side: self.view.side(), ..self.plan.onto(asked)? })
     }
 }
 
 pub(super) fn animate(asked: &AnimateArgs) -> anyhow::Result<()> {
     let watch = Stopwatch::start();
     asked.view.check(&asked.plan.given())?;
-    let site = Site::load(asked.site.path(), &asked.overrides())?;
+    let site = Site::load(asked.site.path(), &asked.overrides()?)?;
     let request = AnimationRequest { view: asked.view.of(&site), width: asked.width, fps: asked.fps, watch };
     let mut progress = Progress::new(asked.common.quiet);
     let folder = Folder { path: &asked.out, who: &who(), inputs: &asked.site.inputs()? };

@@ -7,9 +7,11 @@ use super::model::{GroundArgs, ModelArgs};
 use super::options::nothing_asked;
 pub(super) use super::technique::DrawArgs;
 use super::technique::{self, FinderArgs, MapArgs};
+use super::values;
 use super::wrong_use::WrongUse;
 use crate::choice::Receivers;
 use crate::formats::is_model;
+use crate::message::Field;
 use crate::site::{Overrides, SiteError, inputs};
 use crate::study::verify::SIZE;
 use clap::{Args, ValueEnum, value_parser};
@@ -86,8 +88,8 @@ pub(super) struct ResolutionArgs {
 }
 
 impl ResolutionArgs {
-    pub(super) fn onto(&self, asked: Overrides) -> Overrides {
-        Overrides { resolution: self.resolution.clone(), ..asked }
+    pub(super) fn onto(&self, asked: Overrides) -> Result<Overrides, SiteError> {
+        Ok(Overrides { resolution_secs: values::resolution_secs(&self.resolution)?, ..asked })
     }
 }
 
@@ -180,7 +182,7 @@ pub(super) struct ShadowArgs {
     model: ModelArgs,
     /// The instant, local clock time: 2026-09-18T15:00
     #[arg(long, value_name = "T", required = true, allow_hyphen_values = true)]
-    at: String,
+    at: Option<String>,
     /// The date of an instant without one: 2026-09-18
     #[arg(long, value_name = "DATE", allow_hyphen_values = true)]
     date: Option<String>,
@@ -266,7 +268,7 @@ pub(super) struct VolumesArgs {
     model: ModelArgs,
     /// The instant, local clock time: 2026-09-18T15:00
     #[arg(long, value_name = "T", required = true, allow_hyphen_values = true)]
-    at: String,
+    at: Option<String>,
     /// The date of an instant without one: 2026-09-18
     #[arg(long, value_name = "DATE", allow_hyphen_values = true)]
     date: Option<String>,
@@ -302,9 +304,9 @@ pub(super) struct VerifyArgs {
 }
 
 impl SiteArgs {
-    pub(super) fn overrides(&self) -> Overrides {
+    pub(super) fn overrides(&self) -> Result<Overrides, SiteError> {
         let beside = self.paths.get(1..).unwrap_or_default().to_vec();
-        Overrides { beside, ..self.ground.onto(self.place.overrides()) }
+        Ok(Overrides { beside, ..self.ground.onto(self.place.overrides()?) })
     }
 
     /// The site, or the first of several models.
@@ -319,31 +321,37 @@ impl SiteArgs {
 }
 
 impl PlaceArgs {
-    pub(super) fn overrides(&self) -> Overrides {
-        Overrides { place: self.place.clone(), no_refraction: self.no_refraction, ..nothing_asked() }
+    pub(super) fn overrides(&self) -> Result<Overrides, SiteError> {
+        Ok(Overrides { place: values::place(&self.place)?, no_refraction: self.no_refraction, ..nothing_asked() })
     }
 }
 
 impl WindowArgs {
-    pub(super) fn onto(&self, asked: Overrides) -> Overrides {
-        let [date, from_date, to_date, from, to, step] =
-            [&self.date, &self.from_date, &self.to_date, &self.from, &self.to, &self.step].map(Clone::clone);
-        Overrides { date, from_date, to_date, from, to, step, ..asked }
+    pub(super) fn onto(&self, asked: Overrides) -> Result<Overrides, SiteError> {
+        Ok(Overrides {
+            date: values::date(Field::Date, &self.date)?,
+            from_date: values::date(Field::FromDate, &self.from_date)?,
+            to_date: values::date(Field::ToDate, &self.to_date)?,
+            from: values::reading(Field::From, &self.from)?,
+            to: values::reading(Field::To, &self.to)?,
+            step_secs: values::step_secs(&self.step)?,
+            ..asked
+        })
     }
 }
 
 impl PlanArgs {
-    pub(super) fn onto(&self, asked: Overrides) -> Overrides {
-        let PlanArgs { region, cell, size, receivers } = self;
-        Overrides { region: region.clone(), cell: *cell, size: *size, receivers: *receivers, ..asked }
+    pub(super) fn onto(&self, asked: Overrides) -> Result<Overrides, SiteError> {
+        let PlanArgs { ref region, cell, size, receivers } = *self;
+        Ok(Overrides { region: values::region(region)?, cell, size, receivers, ..asked })
     }
 }
 
 impl ProfileArgs {
-    pub(super) fn overrides(&self) -> Overrides {
-        let asked = self.draw.onto(self.window.onto(self.model.onto(self.site.overrides())));
-        let asked = self.plan.onto(self.resolution.onto(asked));
-        Overrides { patch_cell: self.patch_cell, ..asked }
+    pub(super) fn overrides(&self) -> Result<Overrides, SiteError> {
+        let asked = self.draw.onto(self.window.onto(self.model.onto(self.site.overrides()?))?);
+        let asked = self.plan.onto(self.resolution.onto(asked)?)?;
+        Ok(Overrides { patch_cell: self.patch_cell, ..asked })
     }
 
     /// The files asked, of those that there can be; all of them where none is named.
@@ -360,28 +368,32 @@ impl ProfileArgs {
 }
 
 impl ShadowArgs {
-    pub(super) fn overrides(&self) -> Overrides {
-        let asked = self.plan.onto(self.draw.onto(self.model.onto(self.site.overrides())));
-        Overrides { at: Some(self.at.clone()), date: self.date.clone(), side: self.view.side(), ..asked }
+    pub(super) fn overrides(&self) -> Result<Overrides, SiteError> {
+        let asked = self.plan.onto(self.draw.onto(self.model.onto(self.site.overrides()?)))?;
+        let (at, date) = (values::reading(Field::At, &self.at)?, values::date(Field::Date, &self.date)?);
+        Ok(Overrides { at, date, side: self.view.side(), ..asked })
     }
 }
 
 impl SunArgs {
-    pub(super) fn overrides(&self) -> Overrides {
-        Overrides { at: self.at.clone(), ..self.window.onto(self.place.overrides()) }
+    pub(super) fn overrides(&self) -> Result<Overrides, SiteError> {
+        Ok(Overrides { at: values::reading(Field::At, &self.at)?, ..self.window.onto(self.place.overrides()?)? })
     }
 }
 
 impl VolumesArgs {
-    pub(super) fn overrides(&self) -> Overrides {
-        Overrides { at: Some(self.at.clone()), date: self.date.clone(), ..self.model.onto(self.site.overrides()) }
+    pub(super) fn overrides(&self) -> Result<Overrides, SiteError> {
+        let (at, date) = (values::reading(Field::At, &self.at)?, values::date(Field::Date, &self.date)?);
+        Ok(Overrides { at, date, ..self.model.onto(self.site.overrides()?) })
     }
 }
 
 impl VerifyArgs {
-    pub(super) fn overrides(&self) -> Overrides {
-        let asked = self.plan.onto(self.finder.onto(self.window.onto(self.model.onto(self.site.overrides()))));
+    pub(super) fn overrides(&self) -> Result<Overrides, SiteError> {
+        let asked = self.finder.onto(self.window.onto(self.model.onto(self.site.overrides()?))?);
+        let asked = self.plan.onto(asked)?;
         let size = asked.size.or(asked.cell.is_none().then_some(SIZE));
-        Overrides { at: self.at.clone(), settings: self.maps.settings(self.sun_samples), size, ..asked }
+        let at = values::reading(Field::At, &self.at)?;
+        Ok(Overrides { at, settings: self.maps.settings(self.sun_samples), size, ..asked })
     }
 }

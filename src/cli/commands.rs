@@ -48,7 +48,7 @@ pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
         return Err(WrongUse("--out and --mask name the same file; name two".to_owned()).into());
     }
 
-    let site = Site::load(asked.site.path(), &asked.overrides())?;
+    let site = Site::load(asked.site.path(), &asked.overrides()?)?;
     // the site file may name the technique
     if diagram == Some(Diagram::Mask) && !site.method.row().shows_mask {
         let techniques = listed(&showing_mask(), "or");
@@ -122,7 +122,7 @@ pub(super) fn took(statistics: &Statistics) -> String {
 
 /// `gnomon sun`
 pub(super) fn sun(asked: &SunArgs) -> anyhow::Result<()> {
-    let LoadedSun { place, track, notes } = load_sun(&asked.path, &asked.overrides())?;
+    let LoadedSun { place, track, notes } = load_sun(&asked.path, &asked.overrides()?)?;
     let mut progress = Progress::new(asked.common.quiet);
     notes.into_iter().chain(track.notes()).for_each(|note| progress.hear(&Event::Note(note)));
     match asked.common.json {

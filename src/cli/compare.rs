@@ -7,7 +7,7 @@ use super::output::{say, who};
 use super::progress::Progress;
 use crate::deliver::comparison::comparison;
 use crate::deliver::{Folder, Sink};
-use crate::site::{Overrides, Pair, inputs};
+use crate::site::{Overrides, Pair, SiteError, inputs};
 use crate::study::Stopwatch;
 use clap::Args;
 use std::fmt::Write;
@@ -43,16 +43,16 @@ pub(super) struct CompareArgs {
 }
 
 impl CompareArgs {
-    fn overrides(&self) -> Overrides {
-        let asked = self.window.onto(self.ground.onto(self.model.onto(self.place.overrides())));
-        self.plan.onto(self.draw.onto(self.resolution.onto(asked)))
+    fn overrides(&self) -> Result<Overrides, SiteError> {
+        let asked = self.window.onto(self.ground.onto(self.model.onto(self.place.overrides()?)))?;
+        self.plan.onto(self.draw.onto(self.resolution.onto(asked)?))
     }
 }
 
 /// `gnomon compare`
 pub(super) fn compare(asked: &CompareArgs) -> anyhow::Result<()> {
     let watch = Stopwatch::start();
-    let pair = Pair::load(&asked.before, &asked.after, &asked.overrides())?;
+    let pair = Pair::load(&asked.before, &asked.after, &asked.overrides()?)?;
     let inputs = [inputs(&asked.before)?, inputs(&asked.after)?].concat();
     let mut progress = Progress::new(asked.common.quiet);
     let sink = Sink::Folder(Folder { path: &asked.out, who: &who(), inputs: &inputs });

@@ -24,6 +24,7 @@ mod progress;
 mod read_model;
 mod rules;
 mod technique;
+mod values;
 mod verify;
 mod volumes;
 mod wrong_use;

@@ -6,11 +6,13 @@ use super::model::ModelArgs;
 use super::options::Options;
 use super::output::say;
 use super::progress::Progress;
+use super::values;
 use super::wrong_use::WrongUse;
 use crate::deliver::Sink;
 use crate::deliver::probe::{ProbeAnswer, ProbeRequest, probe as deliver};
 use crate::export::probe as told;
-use crate::site::{Overrides, load_probes};
+use crate::message::Field;
+use crate::site::{Overrides, SiteError, load_probes};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -68,13 +70,21 @@ pub(super) struct ProbeArgs {
 }
 
 impl ProbeArgs {
-    fn overrides(&self) -> Overrides {
-        let [point, normal, date, from_date, to_date, from, to] =
-            [&self.point, &self.normal, &self.date, &self.from_date, &self.to_date, &self.from, &self.to]
-                .map(Clone::clone);
-        let (points, on, spacing, height) = (self.points.clone(), self.on.clone(), self.spacing, self.height);
-        let given = Overrides { points, on, spacing, height, ..self.model.onto(self.site.overrides()) };
-        Overrides { point, normal, date, from_date, to_date, from, to, ..given }
+    fn overrides(&self) -> Result<Overrides, SiteError> {
+        Ok(Overrides {
+            point: values::point(&self.point)?,
+            normal: values::normal(&self.normal)?,
+            points: self.points.clone(),
+            on: self.on.clone(),
+            spacing: self.spacing,
+            height: self.height,
+            date: values::date(Field::Date, &self.date)?,
+            from_date: values::date(Field::FromDate, &self.from_date)?,
+            to_date: values::date(Field::ToDate, &self.to_date)?,
+            from: values::reading(Field::From, &self.from)?,
+            to: values::reading(Field::To, &self.to)?,
+            ..self.model.onto(self.site.overrides()?)
+        })
     }
 }
 
@@ -92,7 +102,7 @@ pub(super) fn probe(asked: &ProbeArgs) -> anyhow::Result<()> {
             return Err(WrongUse(what).into());
         }
     }
-    let probing = load_probes(asked.site.path(), &asked.overrides())?;
+    let probing = load_probes(asked.site.path(), &asked.overrides()?)?;
     let request = ProbeRequest {
         drawing: asked.out.clone(),
         table: asked.csv.clone(),

@@ -15,7 +15,7 @@ use std::fmt::Write;
 /// `gnomon profile`
 pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
     let watch = Stopwatch::start();
-    let site = Site::load(asked.site.path(), &asked.overrides())?;
+    let site = Site::load(asked.site.path(), &asked.overrides()?)?;
     if site.receivers == Receivers::Patches {
         return patches::profile(asked, &site, watch);
     }

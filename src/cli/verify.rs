@@ -7,7 +7,7 @@ use crate::deliver::verification::verification;
 use crate::site::Site;
 
 pub(super) fn verify(asked: &VerifyArgs) -> anyhow::Result<()> {
-    let site = Site::load(asked.site.path(), &asked.overrides())?;
+    let site = Site::load(asked.site.path(), &asked.overrides()?)?;
     let mut progress = Progress::new(asked.common.quiet);
     let answer = verification(&site, &mut |event| progress.heard(&event))?;
     say(if asked.common.json { &answer.report } else { &answer.table })?;

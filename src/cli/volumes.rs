@@ -13,7 +13,7 @@ pub(super) fn volumes(asked: &VolumesArgs) -> anyhow::Result<()> {
     if out.extension().is_some_and(|extension| !extension.eq_ignore_ascii_case("glb")) {
         return Err(WrongUse(format!("--out writes GLB; name a .glb file instead of {}", out.display())).into());
     }
-    let site = Site::load(asked.site.path(), &asked.overrides())?;
+    let site = Site::load(asked.site.path(), &asked.overrides()?)?;
     let mut progress = Progress::new(asked.common.quiet);
     let sink = Sink::Paths { inputs: &asked.site.inputs()? };
     let answer = deliver(&site, out, sink, &mut |event| progress.heard(&event))?;

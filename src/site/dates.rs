@@ -13,8 +13,7 @@ pub(super) fn several(
     written: &WrittenSite,
     asked: &Overrides,
 ) -> Result<Option<(Vec<NaiveDate>, FieldLocation)>, SiteError> {
-    let date = |field, text: &Option<String>| date_of(text.clone().map(|text| (text, FieldLocation::Field(field))));
-    match (date(Field::FromDate, &asked.from_date)?, date(Field::ToDate, &asked.to_date)?) {
+    match (asked.from_date, asked.to_date) {
         (Some(first), Some(last)) => {
             if asked.date.is_some() {
                 let message =
@@ -42,12 +41,10 @@ pub(super) fn several(
         return Err(refuse(at(), message!["says nothing beside ", Field::Date; "leave one of the two out"]));
     }
     // a single date of the command line goes before the file's
-    let in_option = |text: &Option<String>| text.as_ref().is_some_and(|text| own_date(text).is_some());
-    if asked.date.is_some() || in_option(&asked.from) {
+    if asked.date.is_some() || asked.from.as_ref().is_some_and(|from| from.date.is_some()) {
         return Ok(None);
     }
-    let date = |text: &str| date_of(Some((text.to_owned(), at())));
-    let (Some(first), Some(last)) = (date(&first.0)?, date(&last.0)?) else { return Ok(None) };
+    let (first, last) = (date_of(&first.0, at())?, date_of(&last.0, at())?);
     let dates = between(first, last, at(), message![format!("{last} is before {first}"); "exchange them"])?;
     Ok(Some((dates, at())))
 }
@@ -63,22 +60,16 @@ fn between(first: NaiveDate, last: NaiveDate, at: FieldLocation, before: Message
     Ok(first.iter_days().take_while(|date| *date <= last).collect())
 }
 
-/// A reading that is meant for each day.
-pub(super) fn of_each_day(text: &str, at: FieldLocation) -> Result<Reading, SiteError> {
-    let reading: Reading = text.parse().map_err(|error| SiteError::sun(at.clone(), error))?;
+/// A reading that is meant for each day, which has no date of its own.
+pub(super) fn of_each_day(reading: Reading, at: impl Fn() -> FieldLocation) -> Result<Reading, SiteError> {
     if reading.date.is_some() {
-        let what = format!("{text} has a date, but is meant for each day");
-        return Err(refuse(at, message![what; "leave it out, and name days with ", Field::Date]));
+        let what = format!("{reading} has a date, but is meant for each day");
+        return Err(refuse(at(), message![what; "leave it out, and name days with ", Field::Date]));
     }
     Ok(reading)
 }
 
-/// The date that somebody wrote.
-pub(super) fn date_of(said: Option<(String, FieldLocation)>) -> Result<Option<NaiveDate>, SiteError> {
-    said.map(|(text, at)| parse_date(&text).map_err(|error| SiteError::sun(at, error))).transpose()
-}
-
-/// The date that a reading names.
-pub(super) fn own_date(text: &str) -> Option<NaiveDate> {
-    text.parse::<Reading>().ok()?.date
+/// The date that stands in the site file.
+pub(super) fn date_of(text: &str, at: FieldLocation) -> Result<NaiveDate, SiteError> {
+    parse_date(text).map_err(|error| SiteError::sun(at, error))
 }

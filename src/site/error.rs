@@ -1,5 +1,6 @@
 //! What can be wrong with a request. Each error names the place where the request is made, and says what to do.
 
+use super::typed::TypedError;
 use crate::formats::ModelError;
 use crate::mesh::MeshError;
 use crate::message::{Field, Message, Piece, Worded, message, pieces, plain_display};
@@ -226,6 +227,14 @@ impl SiteError {
     /// A fault of place or time, where it was asked.
     pub(super) fn sun(at: FieldLocation, error: SunError) -> SiteError {
         SiteError::Sun { at, error: Box::new(error) }
+    }
+
+    /// A value that cannot be read, where it was asked.
+    pub(crate) fn typed(at: FieldLocation, error: impl Into<TypedError>) -> SiteError {
+        match error.into() {
+            TypedError::Sun(error) => SiteError::sun(at, error),
+            error => SiteError::Value { at, message: Box::new(error.message()) },
+        }
     }
 
     /// Whether the reading of a model was cancelled, and nothing is wrong.

@@ -3,6 +3,7 @@
 //! [`Site`] is the checked request. After it nothing is optional, relative to a file, or unchecked.
 
 mod anchored_zero;
+mod asked_value;
 mod camera;
 mod choice;
 mod contents;

@@ -1,19 +1,20 @@
-//! What a face requests in addition to the site file, and how its values are read.
+//! What a face requests in addition to the site file.
 
 use super::error::{FieldLocation, SiteError};
 use crate::choice::{Engine, Finder, Method, Receivers, Settings};
 use crate::formats::{ModelReader, Up};
-use crate::message::{Field, Message, Words, message};
-use crate::sun::Zone;
+use crate::message::{Message, Words};
+use crate::sun::{Reading, Zone};
 use crate::view::Side;
-use chrono::DateTime;
+use chrono::{DateTime, NaiveDate};
+use glam::DVec3;
 use std::path::PathBuf;
 
 /// Fields of a request that a face sets; each that is set has priority over the site file.
 #[derive(Clone, Debug, Default)]
 pub struct Overrides {
-    /// Latitude and longitude, in degrees with a comma between them, for a model file or a site file without `[place]`.
-    pub place: Option<String>,
+    /// Latitude and longitude, degrees, for a model file or a site file without `[place]`.
+    pub place: Option<[f64; 2]>,
     /// The upward axis of all models, whatever their files say.
     pub up: Option<Up>,
     /// Metres: the height of all footprints that have none, whatever the site file says.
@@ -24,28 +25,28 @@ pub struct Overrides {
     pub reading: ModelReader,
     /// The height of the ground, metres above the place's point.
     pub ground: Option<f64>,
-    /// The date of the study, such as `2026-09-18`.
-    pub date: Option<String>,
-    /// The beginning of the study's window, such as `10:00` or `sunrise+1h`.
-    pub from: Option<String>,
+    /// The date of the study.
+    pub date: Option<NaiveDate>,
+    /// The beginning of the study's window: `"10:00".parse()`, `"sunrise+1h".parse()`.
+    pub from: Option<Reading>,
     /// The end of the study's window.
-    pub to: Option<String>,
-    /// The time between two instants, such as `30min`.
-    pub step: Option<String>,
-    /// How near together times of change are found, such as `1min`, or `step` for the instants alone.
-    pub resolution: Option<String>,
+    pub to: Option<Reading>,
+    /// The time between two instants, seconds.
+    pub step_secs: Option<u32>,
+    /// To within how many seconds times of change are found; 0 for the instants alone.
+    pub resolution_secs: Option<u32>,
     /// The first date of a study of several days.
-    pub from_date: Option<String>,
+    pub from_date: Option<NaiveDate>,
     /// The last date of a study of several days.
-    pub to_date: Option<String>,
-    /// A single instant instead of the study, such as `2026-09-18T15:00`.
-    pub at: Option<String>,
-    /// The same as a parsed time; it has priority over all other fields of time.
+    pub to_date: Option<NaiveDate>,
+    /// A single instant instead of the study, by the place's clock: `"2026-09-18T15:00".parse()`.
+    pub at: Option<Reading>,
+    /// The same as a time that is known in every zone; it has priority over all other fields of time.
     pub instant: Option<DateTime<Zone>>,
-    /// A single probe instead of the site file's: `X,Y,Z` in metres.
-    pub point: Option<String>,
-    /// The normal of that probe: `X,Y,Z`.
-    pub normal: Option<String>,
+    /// A single probe instead of the site file's: metres east, north and up of the place.
+    pub point: Option<DVec3>,
+    /// The normal of that probe, of any length but 0.
+    pub normal: Option<DVec3>,
     /// A table of probes instead of the site file's.
     pub points: Option<PathBuf>,
     /// Names of components on which probes are laid.
@@ -54,8 +55,8 @@ pub struct Overrides {
     pub spacing: Option<f64>,
     /// The height of laid probes above the ground, metres.
     pub height: Option<f64>,
-    /// The plan's region: `W,S,E,N` in metres.
-    pub region: Option<String>,
+    /// The plan's region: west, south, east, north, metres.
+    pub region: Option<[f64; 4]>,
     /// The side of a cell, metres.
     pub cell: Option<f64>,
     /// The number of cells along the longer side of the plan.
@@ -80,19 +81,6 @@ pub struct Overrides {
     pub no_refraction: bool,
     /// The face's words for these fields, for the notes on the site, which are written into files as well as shown.
     pub words: &'static dyn Words,
-}
-
-/// Reads `N` finite numbers, separated by commas.
-///
-/// # Errors
-/// [`SiteError::Value`], with the example as its hint.
-pub(super) fn numbers<const N: usize>(field: Field, text: &str, example: &'static str) -> Result<[f64; N], SiteError> {
-    let read: Option<Vec<f64>> =
-        text.split(',').map(|number| number.trim().parse().ok().filter(|number: &f64| number.is_finite())).collect();
-    read.and_then(|numbers| numbers.try_into().ok()).ok_or_else(|| {
-        let what = format!("\"{text}\" is not {N} numbers with commas between them");
-        refuse(FieldLocation::Field(field), message![what; "write for example ", (field, example)])
-    })
 }
 
 /// The error for a value that cannot be used.

@@ -1,7 +1,7 @@
 //! The plan's grid: as requested, or around the models and their shadows.
 
 use super::error::{FieldLocation, SiteError};
-use super::overrides::{Overrides, numbers, refuse};
+use super::overrides::{Overrides, refuse};
 use super::written::WrittenSite;
 use crate::message::{Field, Message, message};
 use crate::view::Grid;
@@ -124,8 +124,8 @@ fn region(
     models_and_shadows: impl FnOnce() -> [DVec2; 2],
 ) -> Result<[f64; 4], SiteError> {
     const EXAMPLE: &str = "-300,-300,300,300";
-    let (region, at) = match (&asked.region, written.site.plan.region) {
-        (Some(text), _) => (numbers(Field::Region, text, EXAMPLE)?, FieldLocation::Field(Field::Region)),
+    let (region, at) = match (asked.region, written.site.plan.region) {
+        (Some(region), _) => (region, FieldLocation::Field(Field::Region)),
         (None, Some(region)) => (region, written.key("plan", "region")),
         (None, None) => return Ok(around(models_and_shadows())),
     };

@@ -1,6 +1,6 @@
 //! The request for probes: which points, on which days.
 
-use super::dates::{date_of, of_each_day, own_date, several};
+use super::dates::{date_of, of_each_day, several};
 use super::error::{FieldLocation, SiteError};
 use super::file::Names;
 use super::ground::{self, Ground};
@@ -8,7 +8,7 @@ use super::laid::{Laying, lay};
 use super::models::Models;
 use super::names::names_of;
 use super::notes::on_probes;
-use super::overrides::{Overrides, numbers, refuse};
+use super::overrides::{Overrides, refuse};
 use super::points_file::{self, MOST_PROBES, unit};
 use super::study::no_study;
 use super::written::WrittenSite;
@@ -16,7 +16,7 @@ use crate::choice::Receivers;
 use crate::formats::composed;
 use crate::mesh::Mesh;
 use crate::message::{Field, Message, Words, message};
-use crate::sun::{DayWindow, Place, Zone};
+use crate::sun::{DayWindow, Place, Reading, Zone};
 use crate::view::Probe;
 use chrono::NaiveDate;
 use glam::DVec3;
@@ -146,12 +146,14 @@ fn probes(written: &WrittenSite, asked: &Overrides) -> Result<Vec<Probe>, SiteEr
             return Err(refuse(FieldLocation::Field(field), message));
         }
     }
-    if let Some(point) = &asked.point {
-        let point = DVec3::from_array(numbers(Field::Point, point, "12,-3,4.5")?);
-        let normal = match &asked.normal {
-            Some(text) => Some(unit(numbers(Field::Normal, text, "0,-1,0")?, || FieldLocation::Field(Field::Normal))?),
-            None => None,
-        };
+    if let Some(point) = asked.point {
+        if !point.is_finite() {
+            let message =
+                message![format!("{point} is no point"); "write metres, for example ", (Field::Point, "12,-3,4.5")];
+            return Err(refuse(FieldLocation::Field(Field::Point), message));
+        }
+        let normal = asked.normal.map(|normal| unit(normal.to_array(), || FieldLocation::Field(Field::Normal)));
+        let normal = normal.transpose()?;
         return Ok(vec![Probe { name: "point".to_owned(), point, normal }]);
     }
     if asked.normal.is_some() {
@@ -199,8 +201,8 @@ fn of_tables(written: &WrittenSite) -> Result<Vec<Probe>, SiteError> {
 
 /// The days asked, each with the part of it that is.
 fn days(place: &Place, written: &WrittenSite, asked: &Overrides) -> Result<Vec<DayWindow>, SiteError> {
-    let reading = |field, text: &Option<String>| {
-        text.as_ref().map(|text| of_each_day(text, FieldLocation::Field(field))).transpose()
+    let reading = |field, set: &Option<Reading>| {
+        set.clone().map(|reading| of_each_day(reading, || FieldLocation::Field(field))).transpose()
     };
     let (from, to) = (reading(Field::From, &asked.from)?, reading(Field::To, &asked.to)?);
     let (dates, dates_at) = dates(written, asked)?;
@@ -226,15 +228,14 @@ fn dates(written: &WrittenSite, asked: &Overrides) -> Result<(Vec<NaiveDate>, Fi
         return Ok(dates);
     }
     let study = &written.site.study;
-    let at = || FieldLocation::Field(Field::Date);
-    if let Some(date) = date_of(asked.date.clone().map(|text| (text, at())))? {
-        return Ok((vec![date], at()));
+    if let Some(date) = asked.date {
+        return Ok((vec![date], FieldLocation::Field(Field::Date)));
     }
     let at = |key: &str| written.key("study", key);
-    if let Some(date) = date_of(study.date.as_ref().map(|text| (text.0.clone(), at("date"))))? {
-        return Ok((vec![date], at("date")));
+    if let Some(date) = &study.date {
+        return Ok((vec![date_of(&date.0, at("date"))?], at("date")));
     }
     // A study without a date has one in its beginning.
-    let own = study.from.as_ref().and_then(|from| own_date(&from.0));
+    let own = study.from.as_ref().and_then(|from| from.0.parse::<Reading>().ok()?.date);
     Ok((vec![own.ok_or_else(|| no_study(written, [false, true, true, true]))?], at("from")))
 }

@@ -1,31 +1,16 @@
 //! The study of the request → its instants.
 
-use super::dates::{date_of, of_each_day, own_date, several};
+use super::asked_value::AskedValue;
+use super::dates::{date_of, of_each_day, several};
 use super::error::{FieldLocation, SiteError};
 use super::overrides::{Overrides, refuse};
-use super::typed::INSTANTS_ALONE;
+use super::typed;
 use super::written::WrittenSite;
 use crate::message::{Field, message};
 use crate::sun::{DayWindow, EachDay, Place, Reading, SunError, SunTrack, Window, parse_duration_secs};
 use chrono::NaiveDate;
 
-/// A text and where it was written.
-struct LocatedText<'a> {
-    text: &'a str,
-    at: FieldLocation,
-}
-
-impl LocatedText<'_> {
-    fn fault(&self, error: SunError) -> SiteError {
-        SiteError::sun(self.at.clone(), error)
-    }
-
-    fn reading(&self) -> Result<Reading, SiteError> {
-        self.text.parse().map_err(|error| self.fault(error))
-    }
-}
-
-/// The instants asked: a single one alone, or the study's window with the command line before the file.
+/// The instants asked: a single one alone, or the study's window with the request before the file.
 pub(super) fn track(place: &Place, written: &WrittenSite, asked: &Overrides) -> Result<SunTrack, SiteError> {
     let refraction = !asked.no_refraction;
     if let Some(time) = asked.instant {
@@ -34,7 +19,7 @@ pub(super) fn track(place: &Place, written: &WrittenSite, asked: &Overrides) -> 
         return track.map_err(|error| SiteError::sun(written.key("study", ""), error));
     }
     match &asked.at {
-        Some(text) => single(place, written, asked, text),
+        Some(reading) => single(place, written, asked, reading),
         None => {
             let track = window(place, written, asked)?;
             Ok(SunTrack { resolution_secs: resolution_secs(written, asked, &track)?, ..track })
@@ -45,96 +30,98 @@ pub(super) fn track(place: &Place, written: &WrittenSite, asked: &Overrides) -> 
 /// How near together times of change are found: as asked, else as the track has it.
 fn resolution_secs(written: &WrittenSite, asked: &Overrides, track: &SunTrack) -> Result<u32, SiteError> {
     let step_secs = track.step_secs;
-    let in_file = in_file(written, "resolution", written.site.study.resolution.as_deref());
-    let Some((text, at)) = said(Field::Resolution, &asked.resolution).or(in_file) else {
-        return Ok(track.resolution_secs);
-    };
-    if text.trim() == INSTANTS_ALONE {
-        return Ok(0);
+    let in_file = written.site.study.resolution.as_deref();
+    let resolution = AskedValue::of(written, (Field::Resolution, asked.resolution_secs), ("resolution", in_file));
+    let Some(resolution) = resolution else { return Ok(track.resolution_secs) };
+    let secs = resolution.read(typed::resolution_secs)?;
+    if secs > step_secs {
+        let what = format!("a resolution of {secs} s is longer than the step, {step_secs} s");
+        let hint = "write for example 1min, or step for the instants alone";
+        return Err(refuse(resolution.at(), message![what; hint]));
     }
-    let example = "write for example 1min, or step for the instants alone";
-    match parse_duration_secs(&text) {
-        Err(_) | Ok(0) => Err(refuse(at, message![format!("\"{text}\" is no resolution"); example])),
-        Ok(secs) if secs > step_secs => {
-            let what = format!("a resolution of {secs} s is longer than the step, {step_secs} s");
-            Err(refuse(at, message![what; example]))
-        }
-        Ok(secs) => Ok(secs),
-    }
-}
-
-/// A text of the command line and its field.
-fn said(field: Field, text: &Option<String>) -> Option<(String, FieldLocation)> {
-    text.clone().map(|text| (text, FieldLocation::Field(field)))
-}
-
-/// A text of the file's study and its key.
-fn in_file(written: &WrittenSite, key: &str, text: Option<&str>) -> Option<(String, FieldLocation)> {
-    text.map(|text| (text.to_owned(), written.key("study", key)))
+    Ok(secs)
 }
 
 /// The date that the file's study has.
-fn date_in_file(written: &WrittenSite) -> Option<(String, FieldLocation)> {
-    in_file(written, "date", written.site.study.date.as_ref().map(|date| date.0.as_str()))
+fn date_in_file(written: &WrittenSite) -> Result<Option<NaiveDate>, SiteError> {
+    let date = written.site.study.date.as_ref();
+    date.map(|date| date_of(&date.0, written.key("study", "date"))).transpose()
 }
 
 /// The single instant that is asked instead of the study.
-fn single(place: &Place, written: &WrittenSite, asked: &Overrides, text: &str) -> Result<SunTrack, SiteError> {
+fn single(place: &Place, written: &WrittenSite, asked: &Overrides, reading: &Reading) -> Result<SunTrack, SiteError> {
     let given = [
-        (Field::From, &asked.from),
-        (Field::To, &asked.to),
-        (Field::Step, &asked.step),
-        (Field::Resolution, &asked.resolution),
-        (Field::FromDate, &asked.from_date),
-        (Field::ToDate, &asked.to_date),
+        (Field::From, asked.from.is_some()),
+        (Field::To, asked.to.is_some()),
+        (Field::Step, asked.step_secs.is_some()),
+        (Field::Resolution, asked.resolution_secs.is_some()),
+        (Field::FromDate, asked.from_date.is_some()),
+        (Field::ToDate, asked.to_date.is_some()),
     ];
-    if let Some((field, _)) = given.into_iter().find(|(_, given)| given.is_some()) {
+    if let Some((field, _)) = given.into_iter().find(|(_, given)| *given) {
         let message = message!["says nothing beside ", Field::At; "leave one of the two out"];
         return Err(refuse(FieldLocation::Field(field), message));
     }
-    let at = LocatedText { text, at: FieldLocation::Field(Field::At) };
-    let reading = at.reading()?;
-    // A reading with its own date does not ask the site file for one.
-    let date = said(Field::Date, &asked.date).or(date_in_file(written).filter(|_| reading.date.is_none()));
-    SunTrack::at(place, &reading, date_of(date)?, !asked.no_refraction).map_err(|error| at.fault(error))
+    let date = match asked.date {
+        // A reading with its own date does not ask the site file for one.
+        None if reading.date.is_none() => date_in_file(written)?,
+        date => date,
+    };
+    SunTrack::at(place, reading, date, !asked.no_refraction)
+        .map_err(|error| SiteError::sun(FieldLocation::Field(Field::At), error))
+}
+
+/// From, to and step of the study: the face's, or else the file's.
+#[derive(Clone, Debug)]
+struct AskedWindow<'a> {
+    from: Option<AskedValue<'a, Reading>>,
+    to: Option<AskedValue<'a, Reading>>,
+    step: Option<AskedValue<'a, u32>>,
+}
+
+impl<'a> AskedWindow<'a> {
+    fn of(written: &'a WrittenSite, asked: &Overrides) -> AskedWindow<'a> {
+        let study = &written.site.study;
+        let [from, to] = [&study.from, &study.to].map(|text| text.as_ref().map(|text| text.0.as_str()));
+        AskedWindow {
+            from: AskedValue::of(written, (Field::From, asked.from.clone()), ("from", from)),
+            to: AskedValue::of(written, (Field::To, asked.to.clone()), ("to", to)),
+            step: AskedValue::of(written, (Field::Step, asked.step_secs), ("step", study.step.as_deref())),
+        }
+    }
 }
 
 /// The study's window, or that on each of several days.
 fn window(place: &Place, written: &WrittenSite, asked: &Overrides) -> Result<SunTrack, SiteError> {
     let refraction = !asked.no_refraction;
-    let study = &written.site.study;
-    let file = |key: &str, text: Option<&str>| in_file(written, key, text);
-    let date_asked = said(Field::Date, &asked.date);
-    let date_written = date_in_file(written);
-    let from = said(Field::From, &asked.from).or(file("from", study.from.as_ref().map(|text| text.0.as_str())));
-    let to = said(Field::To, &asked.to).or(file("to", study.to.as_ref().map(|text| text.0.as_str())));
-    let step = said(Field::Step, &asked.step).or(file("step", study.step.as_deref()));
+    let said = AskedWindow::of(written, asked);
     if let Some((dates, dates_at)) = several(written, asked)? {
-        return each_day(place, written, (&dates, dates_at), [from, to, step], refraction);
+        return each_day(place, written, (&dates, dates_at), said, refraction);
     }
-    let own_date = from.as_ref().and_then(|(text, _)| own_date(text));
-    let dated = own_date.is_some() || date_asked.is_some() || date_written.is_some();
-    let (Some(from), Some(to), Some(step), true) = (&from, &to, &step, dated) else {
-        return Err(no_study(written, [dated, from.is_some(), to.is_some(), step.is_some()]));
+    let own_date = said.from.as_ref().and_then(|from| from.read(str::parse::<Reading>).ok()?.date);
+    let dated = own_date.is_some() || asked.date.is_some() || written.site.study.date.is_some();
+    let (Some(from), Some(to), Some(step), true) = (&said.from, &said.to, &said.step, dated) else {
+        return Err(no_study(written, [dated, said.from.is_some(), said.to.is_some(), said.step.is_some()]));
     };
-    let [from, to, step] = [from, to, step].map(|(text, at)| LocatedText { text, at: at.clone() });
 
-    let reading = from.reading()?;
+    let reading = from.read(str::parse::<Reading>)?;
     // a beginning with its own date is asked later than the date in the file, and goes before it.
     let overrides = reading.date.is_some() && asked.from.is_some();
-    let date = date_of(date_asked.or(date_written.filter(|_| !overrides)))?;
-    let window = Window {
-        date,
-        to: to.reading()?,
-        step_secs: parse_duration_secs(step.text).map_err(|error| step.fault(error))?,
-        from: reading,
+    let date = match asked.date {
+        None if !overrides => date_in_file(written)?,
+        date => date,
     };
-    SunTrack::window(place, &window, refraction).map_err(|error| match error {
-        SunError::ZeroStep | SunError::TooManyInstants { .. } => step.fault(error),
-        SunError::EmptyWindow { .. } | SunError::Backwards { .. } | SunError::WindowTooLong { .. } => to.fault(error),
-        // where its beginning is sound the fault lies in its end
-        _ if window.begin(place).is_ok() => to.fault(error),
-        _ => from.fault(error),
+    let window =
+        Window { date, to: to.read(str::parse::<Reading>)?, step_secs: step.read(parse_duration_secs)?, from: reading };
+    SunTrack::window(place, &window, refraction).map_err(|error| {
+        let at = match error {
+            SunError::ZeroStep | SunError::TooManyInstants { .. } => step.at(),
+            SunError::EmptyWindow { .. } | SunError::Backwards { .. } | SunError::WindowTooLong { .. } => to.at(),
+            // where its beginning is sound the fault lies in its end
+            _ if window.begin(place).is_ok() => to.at(),
+            _ => from.at(),
+        };
+        SiteError::sun(at, error)
     })
 }
 
@@ -143,23 +130,23 @@ fn each_day(
     place: &Place,
     written: &WrittenSite,
     (dates, dates_at): (&[NaiveDate], FieldLocation),
-    [from, to, step]: [Option<(String, FieldLocation)>; 3],
+    AskedWindow { from, to, step }: AskedWindow<'_>,
     refraction: bool,
 ) -> Result<SunTrack, SiteError> {
-    let Some((step, step_at)) = step else {
+    let Some(step) = step else {
         return Err(no_study(written, [true, true, true, false]));
     };
-    let step_secs = parse_duration_secs(&step).map_err(|error| SiteError::sun(step_at.clone(), error))?;
-    let reading = |said: &Option<(String, FieldLocation)>| {
-        said.as_ref().map(|(text, at)| of_each_day(text, at.clone())).transpose()
+    let step_secs = step.read(parse_duration_secs)?;
+    let reading = |said: &Option<AskedValue<'_, Reading>>| {
+        said.as_ref().map(|said| of_each_day(said.read(str::parse::<Reading>)?, || said.at())).transpose()
     };
     let each = EachDay { from: reading(&from)?, to: reading(&to)? };
     SunTrack::days(place, dates, each.clone(), step_secs, refraction).map_err(|error| {
         let fails = |from: Option<&Reading>| dates.iter().any(|date| DayWindow::on(place, *date, from, None).is_err());
         let at = match (&error, from, to) {
-            (SunError::ZeroStep | SunError::TooManyInstants { .. }, ..) => step_at,
-            (_, Some((_, at)), _) if !fails(None) && fails(each.from.as_ref()) => at,
-            (_, _, Some((_, at))) | (_, Some((_, at)), None) if !fails(None) => at,
+            (SunError::ZeroStep | SunError::TooManyInstants { .. }, ..) => step.at(),
+            (_, Some(from), _) if !fails(None) && fails(each.from.as_ref()) => from.at(),
+            (_, _, Some(last)) | (_, Some(last), None) if !fails(None) => last.at(),
             _ => dates_at,
         };
         SiteError::sun(at, error)

@@ -4,9 +4,8 @@ use super::error::{FieldLocation, SiteError};
 use super::file::{ModelTable, SiteFile};
 use super::keys;
 use super::overrides::{Overrides, refuse};
-use super::typed::{self, TypedError};
 use crate::formats::{self, ModelError, on_disk};
-use crate::message::{Field, Message, Worded, message};
+use crate::message::{Field, Message, message};
 use crate::sun::Place;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -78,18 +77,13 @@ impl WrittenSite {
         let mut written = Self::read_as_it_is(path)?;
         written.add_models(&asked.beside)?;
         written.set_models(asked);
-        if let Some(place) = &asked.place {
+        if let Some([latitude, longitude]) = asked.place {
             if written.point()?.is_some() {
                 return Err(refuse(
                     FieldLocation::Field(Field::Place),
                     message![format!("{} has its own [place]", written.file); "leave one of the two out"],
                 ));
             }
-            let read = typed::place(place).map_err(|error| match error {
-                TypedError::Sun(error) => SiteError::sun(FieldLocation::Field(Field::Place), error),
-                error => refuse(FieldLocation::Field(Field::Place), error.message()),
-            });
-            let [latitude, longitude] = read?;
             let table = written.site.place.get_or_insert_default();
             (table.latitude, table.longitude) = (Some(latitude), Some(longitude));
         }

@@ -1,6 +1,6 @@
 //! What is asked of times of change, and what is said of them.
 
-use super::{sample, some};
+use super::{sample, secs};
 use crate::shared::program::{done, fails, gnomon, site, stderr};
 use gnomon::choice::{Engine, Method, Settings};
 use gnomon::cli::Options;
@@ -14,12 +14,13 @@ use std::path::Path;
 #[test]
 fn the_resolution_is_a_minute_or_what_is_asked() {
     let found = |step: &str, resolution: Option<&str>| {
-        let asked = Overrides { step: some(step), resolution: resolution.map(str::to_owned), ..Overrides::default() };
+        let asked =
+            Overrides { step_secs: secs(step), resolution_secs: resolution.and_then(secs), ..Overrides::default() };
         sample("tower", asked).track.resolution_secs
     };
     let asked = [("1h", None), ("30s", None), ("1h", Some("10s")), ("1h", Some("1h")), ("1h", Some("step"))];
     assert_eq!(asked.map(|(step, resolution)| found(step, resolution)), [60, 30, 10, 3600, 0]);
-    let at = Overrides { at: some("2026-09-18T12:00"), ..Overrides::default() };
+    let at = Overrides { at: "2026-09-18T12:00".parse().ok(), ..Overrides::default() };
     assert_eq!(sample("tower", at).track.resolution_secs, 0);
 }
 
@@ -27,11 +28,15 @@ fn the_resolution_is_a_minute_or_what_is_asked() {
 fn what_is_no_resolution_is_refused() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("sites/tower");
     let refused = |asked: Overrides| Site::load(&folder, &asked).unwrap_err().in_words(&Options);
-    for text in ["soon", "0s", "", "2h"] {
-        let error = refused(Overrides { resolution: some(text), step: some("1h"), ..Overrides::default() });
-        assert!(error.contains("--resolution") && error.contains("step for the instants alone"), "{error}");
+    let error = refused(Overrides { step_secs: secs("1h"), resolution_secs: secs("2h"), ..Overrides::default() });
+    assert!(error.contains("--resolution") && error.contains("step for the instants alone"), "{error}");
+    let written = site();
+    for option in ["soon", "0s", "", "2h"].map(|text| format!("--resolution={text}")) {
+        let words = ["--resolution", "step for the instants alone"];
+        fails(written.path(), &format!("profile . --step 1h {option}"), 2, &words);
     }
-    let error = refused(Overrides { at: some("12:00"), resolution: some("1min"), ..Overrides::default() });
+    let at = "12:00".parse().ok();
+    let error = refused(Overrides { at, resolution_secs: secs("1min"), ..Overrides::default() });
     assert!(error.contains("--resolution") && error.contains("--at"), "{error}");
 }
 
@@ -62,8 +67,12 @@ fn it_is_said_with_the_hours() {
 #[test]
 fn another_resolution_is_another_study_and_inexact_techniques_have_none() {
     let number = |resolution: &str, change: fn(&mut Site)| {
-        let asked =
-            Overrides { step: some("1h"), resolution: some(resolution), size: Some(40), ..Overrides::default() };
+        let asked = Overrides {
+            step_secs: secs("1h"),
+            resolution_secs: secs(resolution),
+            size: Some(40),
+            ..Overrides::default()
+        };
         let mut site = sample("tower", asked);
         change(&mut site);
         let mut notes = 0;

@@ -99,7 +99,7 @@ fn shadow(folder: &Path) -> (f64, f64) {
     let outcome = study::run(&site, &Wants::default(), &mut |_| ControlFlow::Continue(())).unwrap();
     let cells = (site.grid.width * site.grid.height) as usize;
     let hours: f64 = (0..cells).map(|at| f64::from(outcome.profile.hours(at))).sum();
-    let at = Overrides { at: Some("2026-06-21T13:00".into()), ..asked };
+    let at = Overrides { at: "2026-06-21T13:00".parse().ok(), ..asked };
     let site = Site::load(folder, &at).unwrap();
     let wants = InstantWants::default();
     let mask = study::instant(&site, View::Plan(site.grid), &wants, &mut |_| ControlFlow::Continue(())).unwrap().mask;

@@ -40,8 +40,8 @@ fn bad_model_is_told_as_by_the_command() {
     let before = harness.state().site_file().clone();
     let bad = folder.path().join("bad.glb");
     std::fs::write(&bad, b"glTF no more").unwrap();
-    let [place, at] = ["48.2,16.37", "2026-03-21T12:00"].map(|text| Some(text.to_owned()));
-    let asked = Overrides { place, at, ..Overrides::default() };
+    let at = "2026-03-21T12:00".parse().ok();
+    let asked = Overrides { place: Some([48.2, 16.37]), at, ..Overrides::default() };
     let error = Site::load(&bad, &asked).expect_err("a bad model").to_string();
     drop_file(&mut harness, &bad);
     click(&mut harness, "Open instead");

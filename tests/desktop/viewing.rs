@@ -228,7 +228,7 @@ fn exported_side_is_that_of_the_window() {
     menu(&mut harness, "Export the drawing…");
     let ours = folder.path().join("window.png");
     answer(&mut harness, &ours, "Write");
-    let at = Overrides { at: Some("2026-03-21T13:00".to_owned()), ..Overrides::default() };
+    let at = Overrides { at: "2026-03-21T13:00".parse().ok(), ..Overrides::default() };
     let site = Site::load(&site, &at).unwrap();
     let (width, height) = (site.camera.width, site.camera.height);
     let half = shown.half_size() * 2.0;

@@ -6,7 +6,7 @@ use serde_json::Value;
 use std::path::PathBuf;
 
 fn asked(beside: &[PathBuf]) -> Overrides {
-    Overrides { place: Some("48.8,2.3".to_owned()), beside: beside.to_vec(), ..Overrides::default() }
+    Overrides { place: Some([48.8, 2.3]), beside: beside.to_vec(), ..Overrides::default() }
 }
 
 #[test]

@@ -119,19 +119,13 @@ fn points_in_the_plane_of_faces() {
 fn the_samples_sites() {
     let sites = Path::new(env!("CARGO_MANIFEST_DIR")).join("sites");
     for (site, point, normal, window) in [
-        ("tower", "0,60,1.5", Some("0,-1,0"), ["11:30", "12:20"]),
-        ("industry", "10,12,1.5", None, ["8:00", "8:50"]),
-        ("headquarters", "-20,95,5", Some("0,-1,0"), ["12:30", "13:20"]),
+        ("tower", dvec3(0.0, 60.0, 1.5), Some(-DVec3::Y), ["11:30", "12:20"]),
+        ("industry", dvec3(10.0, 12.0, 1.5), None, ["8:00", "8:50"]),
+        ("headquarters", dvec3(-20.0, 95.0, 5.0), Some(-DVec3::Y), ["12:30", "13:20"]),
     ] {
-        let [from, to] = window.map(|time| Some(time.to_owned()));
-        let asked = Overrides {
-            point: Some(point.to_owned()),
-            normal: normal.map(str::to_owned),
-            date: Some("2026-10-21".to_owned()),
-            from,
-            to,
-            ..Overrides::default()
-        };
+        let [from, to] = window.map(|time| time.parse().ok());
+        let asked =
+            Overrides { point: Some(point), normal, date: "2026-10-21".parse().ok(), from, to, ..Overrides::default() };
         let mut asked = load_probes(&sites.join(site), &asked).unwrap();
         let Probe { point, normal, .. } = asked.probes[0].clone();
         asked.probes.extend((1..4).map(|step| at(point + dvec3(1.7, 0.9, 2.3) * f64::from(step), normal)));

@@ -15,7 +15,7 @@ use std::path::Path;
 fn site(parts: Vec<gnomon::mesh::Part>) -> Site {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("sites/tower");
     // what is expected is of the instants
-    let asked = Overrides { resolution: Some("step".into()), ..Overrides::default() };
+    let asked = Overrides { resolution_secs: Some(0), ..Overrides::default() };
     let mut site = Site::load(&folder, &asked).expect("a sample site");
     site.mesh = Mesh::build(parts).expect("a mesh");
     site.casts = vec![true; site.mesh.components.len()];

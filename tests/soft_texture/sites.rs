@@ -67,7 +67,7 @@ fn hours_at_the_default_cell_are_those_of_rays() {
 
 #[test]
 fn the_headquarters_fit_the_adapter_at_the_default_cell() {
-    let at = Some("2026-09-18T12:00".to_owned());
+    let at = "2026-09-18T12:00".parse().ok();
     let outcome = hours("headquarters", &Overrides { at, engine: Some(Engine::Gpu), ..Overrides::default() });
     assert_eq!(outcome.patches.cell, DEFAULT_CELL_M);
     println!("{} MiB on the adapter", outcome.gpu_bytes >> 20);

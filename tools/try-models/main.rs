@@ -44,13 +44,12 @@ const EDGE_SHARE: f64 = 0.01;
 
 /// A day with a low sun at both ends.
 fn asked(receivers: Receivers) -> Overrides {
-    let some = |text: &str| Some(text.to_owned());
     Overrides {
-        place: some("51.9984,4.3737"),
-        date: some("2026-09-18"),
-        from: some("sunrise+25min"),
-        to: some("sunset-35min"),
-        step: some("2h20"),
+        place: Some([51.9984, 4.3737]),
+        date: "2026-09-18".parse().ok(),
+        from: "sunrise+25min".parse().ok(),
+        to: "sunset-35min".parse().ok(),
+        step_secs: Some(140 * 60),
         size: Some(SIZE),
         receivers: Some(receivers),
         ..Overrides::default()

@@ -1,8 +1,9 @@
 //! One or several models without a site file; the window asks for their place.
 
 use crate::desktop::state::words::PanelWords;
-use crate::message::Worded;
+use crate::message::{Field, Worded};
 use crate::site::typed::{self, TypedError};
+use crate::site::{FieldLocation, SiteError};
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
@@ -30,6 +31,14 @@ impl BareModel {
         let mut paths = paths.into_iter();
         let path = paths.next().unwrap_or_default();
         BareModel { path, beside: paths.collect(), place: String::new(), north: "0".to_owned(), faults: [None, None] }
+    }
+
+    /// Latitude and longitude, degrees.
+    ///
+    /// # Errors
+    /// What is no place.
+    pub(in crate::desktop) fn place(&self) -> Result<[f64; 2], SiteError> {
+        typed::place(&self.place).map_err(|error| SiteError::typed(FieldLocation::Field(Field::Place), error))
     }
 
     /// Degrees clockwise from the model's north to true north.

@@ -174,7 +174,8 @@ fn from_files(paths: Vec<PathBuf>, beside: &mut Vec<PathBuf>) -> Result<(Option<
 /// Bare models, where they stand.
 fn placed(bare: BareModel) -> Result<WrittenSite, LoadError> {
     let north = bare.north().map_err(|error| failure(&error, &FileWords))?;
-    let BareModel { path, beside, place, .. } = bare;
+    let place = bare.place().map_err(|error| failure(&error, &FileWords))?;
+    let BareModel { path, beside, .. } = bare;
     let overrides = Overrides { place: Some(place), beside, ..Overrides::default() };
     let mut written = WrittenSite::read(&path, &overrides).map_err(|error| failure(&error, &FileWords))?;
     for table in &mut written.site.model {

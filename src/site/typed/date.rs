@@ -121,7 +121,7 @@ pub fn step(text: &str) -> Result<String, TypedError> {
 }
 
 /// The word that asks for the instants alone, where times of change could be found between them.
-pub(crate) const INSTANTS_ALONE: &str = "step";
+pub(super) const INSTANTS_ALONE: &str = "step";
 
 /// To within what time changes are found, as people write it: a duration as a [`step`] is one, or `step` itself.
 ///

@@ -1,7 +1,7 @@
 //! Why a typed value is not accepted.
 
 use super::Axis;
-use crate::message::{Message, Worded, message, plain_display};
+use crate::message::{Field, Message, Worded, message, plain_display};
 use crate::sun::SunError;
 use chrono::NaiveDate;
 
@@ -20,6 +20,15 @@ pub enum TypedError {
         high: f64,
         /// Of all three numbers.
         unit: &'static str,
+    },
+    /// Not so many numbers.
+    Numbers {
+        /// What was typed.
+        text: String,
+        /// How many are meant.
+        count: usize,
+        /// What to write, and for which field.
+        example: (Field, &'static str),
     },
     /// Not an angle on the globe.
     Degrees {
@@ -60,6 +69,10 @@ impl Worded for TypedError {
             TypedError::Outside { value, low, high, unit } => {
                 format!("{value} is not between {low} and {high} {unit}").into()
             }
+            TypedError::Numbers { text, count, example } => message![
+                format!("\"{text}\" is not {count} numbers with commas between them");
+                "write for example ", *example
+            ],
             TypedError::Degrees { text, axis } => message![
                 format!("\"{text}\" is no {axis}");
                 format!("write degrees, for example {}", axis.example())
