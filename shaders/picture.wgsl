@@ -9,7 +9,7 @@ struct PictureUniforms {
     hours: f32,
     // From the eye to what it looks at, metres.
     focus: f32,
-    // 1 where the sun is below the horizon.
+    // 1 where sun and shadow are shown and the sun is below the horizon.
     night: f32,
     // How strong the lines are.
     lines: f32,
@@ -56,6 +56,10 @@ struct LookUniforms {
     relief_of_hours: f32,
     silhouette: vec3f,
     relief_darkest: f32,
+    hours_ground: vec3f,
+    hours_card: f32,
+    hours_card_slope: vec3f,
+    hours_wall: f32,
     relief_lightest: f32,
     outline: f32,
     step: f32,
@@ -68,6 +72,14 @@ struct LookUniforms {
     tinted_lines: f32,
     layer: f32,
     most_layers: f32,
+    hours_wall_slope: f32,
+    hours_height_m: f32,
+    hours_least_up: f32,
+    plan_tint_shade: f32,
+    relief_level: f32,
+    plan_step_least_m: f32,
+    plan_step_most_m: f32,
+    plan_wall_up: f32,
 }
 
 @group(2) @binding(0) var<uniform> shown: PictureUniforms;
@@ -144,12 +156,12 @@ fn is_ground(face: u32) -> bool {
 fn hours_at(point: vec3f, normal: vec3f) -> vec4f {
     let at = (point.xy - shown.hours_corner) * vec2f(1.0, -1.0) / shown.hours_cell;
     let size = vec2f(textureDimensions(hours_colour));
-    if any(at < vec2f(0.0)) || any(at >= size) || normal.z < 0.05 {
+    if any(at < vec2f(0.0)) || any(at >= size) || normal.z < look.hours_least_up {
         return vec4f(0.0);
     }
     let cell = vec2u(at);
     let steep = shown.hours_cell * length(normal.xy) / normal.z;
-    let near = abs(textureLoad(hours_height, cell, 0).x - point.z) <= 0.02 + steep;
+    let near = abs(textureLoad(hours_height, cell, 0).x - point.z) <= look.hours_height_m + steep;
     return vec4f(textureLoad(hours_colour, cell, 0).rgb, select(0.0, 1.0, near));
 }
 
@@ -196,25 +208,26 @@ fn before_camera(pixel: vec2f, face: u32) -> vec3f {
     if shown.hours == 0.0 {
         return at_night(mix(card * light_on(normal, share), look.horizon, haze));
     }
-    if shown.hours == 2.0 && face != GROUND {
+    if shown.hours == 2.0 && face == GROUND {
+        return look.hours_ground;
+    }
+    if shown.hours == 2.0 {
         return on_patch(face, point, normal);
     }
     // what was not counted is plain card under the sky
-    var hours = vec4f(0.0);
-    if shown.hours == 1.0 {
-        hours = hours_at(point, normal);
-    }
-    let plain = mix(card * (0.74 + 0.18 * normal.z + 0.05 * normal.x - 0.03 * normal.y), look.horizon, haze);
-    return mix(plain, hours.rgb * (0.90 + 0.10 * normal.z), hours.a);
+    let hours = hours_at(point, normal);
+    let plain = mix(card * (look.hours_card + dot(look.hours_card_slope, normal)), look.horizon, haze);
+    return mix(plain, hours.rgb * (look.hours_wall + look.hours_wall_slope * normal.z), hours.a);
 }
 
 // Slopes away from the light are a little darker.
 fn relief(normal: vec3f, strength: f32) -> f32 {
-    if normal.z > 0.9999 {
+    if normal.z > look.relief_level {
         return 1.0;
     }
-    let across = vec3f(normalize(light.towards.xy + vec2f(1e-6, 0.0)), 1.0) * 0.70710678;
-    return clamp(1.0 + strength * (dot(normal, across) / across.z - 1.0), look.relief_darkest, look.relief_lightest);
+    // half-way between up and the sun, as long as its part that points up is 1
+    let across = vec3f(normalize(light.towards.xy + vec2f(1e-6, 0.0)), 1.0);
+    return clamp(1.0 + strength * (dot(normal, across) - 1.0), look.relief_darkest, look.relief_lightest);
 }
 
 fn from_above(pixel: vec2f, face: u32) -> vec3f {
@@ -236,7 +249,7 @@ fn from_above(pixel: vec2f, face: u32) -> vec3f {
         roof = mix(look.plan_ground_shade, look.plan_ground_sun, select(share, 1.0, shown.hours > 0.0));
     }
     if shown.tinted == 1.0 {
-        roof = tint_of(face) * mix(0.78, 1.0, share);
+        roof = tint_of(face) * mix(look.plan_tint_shade, 1.0, share);
     }
     return roof * relief(normal, look.relief);
 }
@@ -287,10 +300,10 @@ fn line_in_plan(a: vec2f, b: vec2f, from_face: u32, to_face: u32) -> f32 {
     let from_point = point_on(from_face, a);
     let to_point = point_on(to_face, b);
     let half = (to_point.xy - from_point.xy) * 0.5;
-    let from_rise = select(0.0, -dot(from_normal.xy, half) / from_normal.z, from_normal.z > 0.1);
-    let to_rise = select(0.0, -dot(to_normal.xy, -half) / to_normal.z, to_normal.z > 0.1);
+    let from_rise = select(0.0, -dot(from_normal.xy, half) / from_normal.z, from_normal.z >= look.plan_wall_up);
+    let to_rise = select(0.0, -dot(to_normal.xy, -half) / to_normal.z, to_normal.z >= look.plan_wall_up);
     let jump = abs(from_point.z + from_rise - to_point.z - to_rise);
-    let step = clamp(length(half), 0.02, 0.5) + abs(from_rise) + abs(to_rise);
+    let step = clamp(length(half), look.plan_step_least_m, look.plan_step_most_m) + abs(from_rise) + abs(to_rise);
     // the ground has no lines of its own but where it steps
     let are_ground = vec2<bool>(is_ground(from_face), is_ground(to_face));
     if all(are_ground) {

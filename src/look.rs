@@ -50,6 +50,21 @@ pub struct Look {
     pub night: DVec3,
     /// The colour of what is not judged, among surfaces in the colours of hours.
     pub not_judged: [u8; 3],
+    /// The ground around surfaces in the colours of hours. It is not judged either, and has no entry in the legend.
+    pub hours_ground: [u8; 3],
+    /// The light on card that was not counted, where a plan's hours lie over what a camera sees: that of a wall on
+    /// average.
+    pub hours_card: f64,
+    /// How much more of it a face has per unit of its normal towards the east, the north and above.
+    pub hours_card_slope: DVec3,
+    /// The factor for a plan's hours that a camera sees, on a wall.
+    pub hours_wall: f64,
+    /// How much more it is on a face that looks upwards.
+    pub hours_wall_slope: f64,
+    /// How far a seen point may be above or below the surface that was counted, metres, beside what its slope adds.
+    pub hours_height_m: f64,
+    /// The sine of the angle to a wall's below which a face has no hours of a plan's cells.
+    pub hours_least_up: f64,
 
     /// The plan's ground in the sun.
     pub plan_ground_sun: [u8; 3],
@@ -59,6 +74,8 @@ pub struct Look {
     pub plan_roof_sun: [u8; 3],
     /// Roofs in the shade.
     pub plan_roof_shade: [u8; 3],
+    /// The factor in the shade for components in their own colours.
+    pub plan_tint_shade: f64,
     /// How strongly slopes differ from level roofs.
     pub relief: f64,
     /// The same where colours are a measure: weak enough not to be taken for another band.
@@ -67,6 +84,8 @@ pub struct Look {
     pub relief_darkest: f64,
     /// The lightest factor of a slope.
     pub relief_lightest: f64,
+    /// The part of a unit normal that points up, above which a face is level and has no relief.
+    pub relief_level: f64,
 
     /// The colour of the lines; nearly black, so that it also reads on a scale's dark end.
     pub line: [u8; 3],
@@ -82,6 +101,13 @@ pub struct Look {
     pub crease_cos: f64,
     /// The same cosine in the plan.
     pub plan_crease_cos: f64,
+    /// In the plan, the least gap in height that is a step, metres: below it a step is rounding, a kerb or a joint.
+    pub plan_step_least_m: f64,
+    /// The greatest such gap, however large the cells are, metres.
+    pub plan_step_most_m: f64,
+    /// The part of a unit normal that points up, to which a face is a wall: seen from above, it has no height to carry
+    /// on with.
+    pub plan_wall_up: f64,
     /// The share of the distance from which a gap in depth is a step.
     pub step_share: f64,
     /// The gap that is a step in a side's picture, in pixels.
@@ -122,15 +148,24 @@ pub const LOOK: Look = Look {
     haze_length: 3.5,
     night: DVec3::new(0.62, 0.66, 0.76),
     not_judged: [200, 191, 182],
+    hours_ground: [236, 234, 229],
+    hours_card: 0.74,
+    hours_card_slope: DVec3::new(0.05, -0.03, 0.18),
+    hours_wall: 0.90,
+    hours_wall_slope: 0.10,
+    hours_height_m: 0.02,
+    hours_least_up: 0.05,
 
     plan_ground_sun: [246, 240, 226],
     plan_ground_shade: [140, 152, 173],
     plan_roof_sun: [255, 255, 253],
     plan_roof_shade: [174, 183, 198],
+    plan_tint_shade: 0.78,
     relief: 0.26,
     relief_of_hours: 0.10,
     relief_darkest: 0.70,
     relief_lightest: 1.04,
+    relief_level: 0.9999,
 
     line: [24, 27, 34],
     outline: 0.9,
@@ -139,6 +174,9 @@ pub const LOOK: Look = Look {
     crease: 0.45,
     crease_cos: 0.985,
     plan_crease_cos: 0.990,
+    plan_step_least_m: 0.02,
+    plan_step_most_m: 0.5,
+    plan_wall_up: 0.1,
     step_share: 0.004,
     side_step_pixels: 2.0,
     tinted_lines: 0.55,

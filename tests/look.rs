@@ -2,14 +2,19 @@
 
 use crate::shared::drawing::gpu;
 use gnomon::choice::{Engine, Method, Receivers, Settings};
-use gnomon::export::figure::{self, PictureExtras};
+use gnomon::export::figure::scale::Bands;
+use gnomon::export::figure::{self, FigureContext, PictureExtras};
+use gnomon::export::patches::{Atlas, PatchContext};
 use gnomon::gpu::readback;
 use gnomon::look::LOOK;
-use gnomon::picture::{Picture, Style};
-use gnomon::profile::Provenance;
+use gnomon::mesh::Mesh;
+use gnomon::mesh::patches::{MOST_TEXELS, Patches};
+use gnomon::picture::{HoursRaster, PatchColours, Picture, Style};
+use gnomon::profile::{Profile, Provenance};
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::{DrawnMask, Scene, Technique};
 use gnomon::site::{Overrides, Site};
+use gnomon::sunlight::PatchHours;
 use gnomon::view::{Camera, Grid, Mask, Side, Surface, View};
 use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
@@ -19,6 +24,8 @@ use wgpu::TextureAspect;
 const REACH: usize = 4;
 /// Levels by which a pixel without a line may be off: the shader reckons in `f32`.
 const LEVELS: u8 = 1;
+/// The daylight of made-up hours.
+const DAY_HOURS: u32 = 8;
 /// Levels by which a pixel at a border may be off: a drawing's finest line leaves a tenth of its ink beside the pixel.
 const LINE_LEVELS: u8 = 14;
 
@@ -36,8 +43,20 @@ fn sample(name: &str, at: &str) -> Site {
     Site::load(&path, &Overrides { at: at.parse().ok(), ..Overrides::default() }).expect("a sample site")
 }
 
+/// What both show.
+#[derive(Clone, Copy)]
+enum Content<'a> {
+    Sun,
+    /// Sun and shadow, components in their own colours.
+    Components,
+    /// Hours of shadow on a plan's cells.
+    Hours(&'a Profile),
+    /// Hours of sun on patches.
+    Patches(&'a PatchContext<'a>),
+}
+
 /// Both see the same faces and have the same mask, of rays, so that they differ by their look alone.
-fn pair(site: &Site, view: View, is_tinted: bool) -> Pair {
+fn pair(site: &Site, view: View, content: Content) -> Pair {
     let [casters, receivers] = [&site.casts, &site.receives].map(|chosen| site.mesh.of_components(chosen));
     let scene = Scene { casters, receivers, ground: site.ground.level };
     let instant = &site.track.instants[0];
@@ -48,39 +67,6 @@ fn pair(site: &Site, view: View, is_tinted: bool) -> Pair {
         false => rays.draw(instant.to_sun).and_then(|mask| mask.read()).expect("a mask"),
     };
     let surface = rays.surface().expect("what is seen");
-
-    let mut picture = Picture::new(gpu(), &scene, view).expect("a picture");
-    picture.look_at(&scene, view, Some(&rays.faces())).expect("another look");
-    let casts: Vec<bool> =
-        site.casts.iter().zip(&site.receives).filter(|(_, seen)| **seen).map(|(casts, _)| *casts).collect();
-    let colours = figure::component_colours(&scene.receivers, &casts);
-    let parts = scene.receivers.components.iter().zip(colours);
-    picture.tint(parts.flat_map(|(part, colour)| std::iter::repeat_n(colour, part.faces.len())));
-    let focus_m = site.camera.target.distance(site.camera.eye);
-    let style = Style { focus_m, lines: 1.0, wide_lines: true, tinted: is_tinted, hours: false };
-    let target = Picture::target(&gpu(), &view);
-    picture.draw(&DrawnMask::Memory(&mask), instant.to_sun, &style, &target).expect("a picture");
-
-    let drawn = Provenance {
-        technique: Method::RayCast,
-        finder: None,
-        engine: Engine::Cpu,
-        adapter: None,
-        settings: Settings::NONE,
-        resolution_secs: 0,
-    };
-    let sheet = figure::FigureContext {
-        place: &site.place,
-        track: &site.track,
-        mesh: &scene.receivers,
-        surface: &surface,
-        receivers: Receivers::Top,
-        ground: site.ground,
-        drawn: &drawn,
-    };
-    let shown = PictureExtras { casts: is_tinted.then_some(casts.as_slice()), ..PictureExtras::default() };
-    let drawing = figure::bare(&sheet, &view, &mask, instant.to_sun, &shown);
-    let picture = readback::texels(&gpu(), &target, TextureAspect::All).expect("pixels");
     let planes = scene.receivers.planes();
     let mut numbers = HashMap::new();
     let seen = surface.face.iter().map(|&face| match planes.get(face as usize) {
@@ -90,7 +76,94 @@ fn pair(site: &Site, view: View, is_tinted: bool) -> Pair {
             *numbers.entry(plane.to_array().map(f64::to_bits)).or_insert(next)
         }
     });
-    Pair { width: width as usize, picture, drawing, seen: seen.collect() }
+    let seen = seen.collect();
+
+    let mut picture = Picture::new(gpu(), &scene, view).expect("a picture");
+    picture.look_at(&scene, view, Some(&rays.faces())).expect("another look");
+    let casts: Vec<bool> =
+        site.casts.iter().zip(&site.receives).filter(|(_, seen)| **seen).map(|(casts, _)| *casts).collect();
+    let colours = figure::component_colours(&scene.receivers, &casts);
+    let parts = scene.receivers.components.iter().zip(colours);
+    picture.tint(parts.flat_map(|(part, colour)| std::iter::repeat_n(colour, part.faces.len())));
+    let focus_m = site.camera.target.distance(site.camera.eye);
+    let tinted = matches!(content, Content::Components);
+    let hours = lay(&mut picture, site, &surface, content);
+    let style = Style { focus_m, lines: 1.0, wide_lines: true, tinted, hours };
+    let target = Picture::target(&gpu(), &view);
+    picture.draw(&DrawnMask::Memory(&mask), instant.to_sun, &style, &target).expect("a picture");
+    let picture = readback::texels(&gpu(), &target, TextureAspect::All).expect("pixels");
+    let drawing = drawing(site, &view, &mask, (&scene.receivers, &surface), &casts, content);
+    Pair { width: width as usize, picture, drawing, seen }
+}
+
+/// Lays hours over the picture, as the window does. Whether there are any.
+fn lay(picture: &mut Picture, site: &Site, surface: &Surface, content: Content) -> bool {
+    match content {
+        Content::Sun | Content::Components => return false,
+        Content::Hours(profile) => {
+            let Grid { west, north, cell, width, height } = profile.grid;
+            let bands = Bands::new(site.track.step_secs, profile.day_secs);
+            let colours: Vec<_> = profile.shaded.iter().map(|shaded| bands.colour(shaded)).collect();
+            let (corner, size, height_m) = ([west, north], (width, height), &surface.height_m);
+            picture.lay_hours(Some(HoursRaster { corner, cell, size, colours: &colours, height_m }));
+        }
+        Content::Patches(found) => {
+            let atlas = Atlas::of(found);
+            let pages = atlas.colours(&found.bands(), found.hours.samples);
+            let colours = PatchColours { patches: found.patches, patch_of: &atlas.patch_of, pages: &pages };
+            picture.lay_patches(&colours).expect("patches");
+        }
+    }
+    true
+}
+
+fn drawing(
+    site: &Site,
+    view: &View,
+    mask: &Mask,
+    (mesh, surface): (&Mesh, &Surface),
+    casts: &[bool],
+    content: Content,
+) -> Vec<[u8; 3]> {
+    let drawn = Provenance {
+        technique: Method::RayCast,
+        finder: None,
+        engine: Engine::Cpu,
+        adapter: None,
+        settings: Settings::NONE,
+        resolution_secs: 0,
+    };
+    let (place, track, ground, receivers) = (&site.place, &site.track, site.ground, Receivers::Top);
+    let sheet = FigureContext { place, track, mesh, surface, receivers, ground, drawn: &drawn };
+    let to_sun = track.instants[0].to_sun;
+    let shown = PictureExtras::default();
+    match content {
+        Content::Sun => figure::bare(&sheet, view, mask, to_sun, &shown),
+        Content::Components => figure::bare(&sheet, view, mask, to_sun, &PictureExtras { casts: Some(casts), ..shown }),
+        Content::Hours(profile) => figure::bare_hours(&sheet, profile),
+        Content::Patches(found) => figure::bare_patches(&sheet, view, found).expect("a camera or a side"),
+    }
+}
+
+/// Hours of shadow, by turns in squares of eight cells.
+fn hours_of(grid: Grid) -> Profile {
+    let cells = 0..grid.width * grid.height;
+    let square = |cell: u32| (cell % grid.width / 8 + 3 * (cell / grid.width / 8)) % (DAY_HOURS + 1);
+    let shaded: Vec<u32> = cells.map(|cell| square(cell) * 3600 * 255).collect();
+    Profile { grid, shaded: shaded.into(), day_secs: DAY_HOURS * 3600, night_secs: 0 }
+}
+
+/// Large texels, and hours of sun on them that differ from patch to patch and within patches.
+fn hours_on_patches(site: &Site) -> (Patches, PatchHours) {
+    let patches = Patches::of(&site.mesh, &site.receives, 8.0, MOST_TEXELS);
+    let mut lit = vec![0; patches.texels.len()];
+    for (number, patch) in patches.list.iter().enumerate() {
+        for texel in patch.texels.start as usize..patch.texels.end as usize {
+            let half = u32::from(patches.texels[texel].column > patch.width as u16 / 2);
+            lit[texel] = (number as u32 + half) % (DAY_HOURS + 1) * 3600;
+        }
+    }
+    (patches, PatchHours { lit, samples: 1, day_secs: DAY_HOURS * 3600, night_secs: 0 })
 }
 
 /// How far two pixels are apart, levels.
@@ -176,7 +249,7 @@ fn the_windows_picture_has_the_drawings_look() {
     ] {
         let site = sample(name, at);
         for (word, view) in views(&site) {
-            let compared = pair(&site, view, false).compare();
+            let compared = pair(&site, view, Content::Sun).compare();
             assert!(compared.plain > 10_000 && compared.border > 500, "{name} {at} {word}: {compared:?}");
             assert!(compared.holds(), "{name} {at} {word}: {compared:?}");
         }
@@ -190,9 +263,9 @@ fn terrain_has_the_drawings_look() {
     let view = views(&plain)[1].1;
     let mut site = plain.clone();
     site.mesh.components.iter_mut().step_by(2).for_each(|component| component.is_terrain = true);
-    let mut terrain = pair(&site, view, false);
+    let mut terrain = pair(&site, view, Content::Sun);
     assert!(terrain.compare().holds(), "{:?}", terrain.compare());
-    terrain.picture = pair(&plain, view, false).picture;
+    terrain.picture = pair(&plain, view, Content::Sun).picture;
     assert!(!terrain.compare().holds(), "terrain drawn as roofs: {:?}", terrain.compare());
 }
 
@@ -200,8 +273,34 @@ fn terrain_has_the_drawings_look() {
 fn components_have_the_drawings_look() {
     let site = sample("industry", "2026-09-18T16:00");
     let view = views(&site)[0].1;
-    let compared = pair(&site, view, true).compare();
+    let compared = pair(&site, view, Content::Components).compare();
     assert!(compared.holds(), "{compared:?}");
+}
+
+/// With hours by day and by night, in which hours are shown, too.
+#[test]
+fn hours_have_the_drawings_look() {
+    for (name, at) in
+        [("industry", "2026-09-18T16:00"), ("industry", "2026-09-18T23:00"), ("tower", "2026-06-21T13:00")]
+    {
+        let site = sample(name, at);
+        let (patches, hours) = hours_on_patches(&site);
+        let Site { place, track, mesh, receives, .. } = &site;
+        let found = PatchContext { place, track, mesh, receives, patches: &patches, hours: &hours };
+        for (word, view) in views(&site) {
+            let profile;
+            let content = match view {
+                View::Plan(grid) => {
+                    profile = hours_of(grid);
+                    Content::Hours(&profile)
+                }
+                View::Camera(_) | View::Elevation(_) => Content::Patches(&found),
+            };
+            let compared = pair(&site, view, content).compare();
+            assert!(compared.plain > 10_000 && compared.border > 500, "{name} {at} {word}: {compared:?}");
+            assert!(compared.holds(), "{name} {at} {word}: {compared:?}");
+        }
+    }
 }
 
 /// What had drifted is seen: the ground's line in a side was stronger in the window.
@@ -209,7 +308,7 @@ fn components_have_the_drawings_look() {
 fn a_line_that_is_too_strong_and_a_colour_that_is_off_are_seen() {
     let site = sample("tower", "2026-06-21T13:00");
     let view = views(&site)[2].1;
-    let mut pair = pair(&site, view, false);
+    let mut pair = pair(&site, view, Content::Sun);
     assert!(pair.compare().holds());
     let is_open = |face: u32| face >= Surface::GROUND;
     let width = pair.width;

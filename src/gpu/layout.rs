@@ -88,7 +88,7 @@ pub struct PictureUniforms {
     pub hours: f32,
     /// The distance from the eye to what it looks at, metres.
     pub focus: f32,
-    /// 1 where the sun is below the horizon.
+    /// 1 where sun and shadow are shown and the sun is below the horizon.
     pub night: f32,
     /// How strong the lines are, 0 to 1.
     pub lines: f32,
@@ -139,6 +139,10 @@ pub struct LookUniforms {
     pub relief_of_hours: f32,
     pub silhouette: [f32; 3],
     pub relief_darkest: f32,
+    pub hours_ground: [f32; 3],
+    pub hours_card: f32,
+    pub hours_card_slope: [f32; 3],
+    pub hours_wall: f32,
     pub relief_lightest: f32,
     pub outline: f32,
     pub step: f32,
@@ -151,6 +155,14 @@ pub struct LookUniforms {
     pub tinted_lines: f32,
     pub layer: f32,
     pub most_layers: f32,
+    pub hours_wall_slope: f32,
+    pub hours_height_m: f32,
+    pub hours_least_up: f32,
+    pub plan_tint_shade: f32,
+    pub relief_level: f32,
+    pub plan_step_least_m: f32,
+    pub plan_step_most_m: f32,
+    pub plan_wall_up: f32,
 }
 
 /// `WeightUniforms` of `shaders/accumulate.wgsl`.
@@ -286,7 +298,7 @@ pub const ALL: &[StructLayout] = &[
     layout!(DrawArguments: index_count, instance_count, first_index, base_vertex, first_instance),
     layout!(Quadrilateral: first, a, second, b),
     layout!(PictureUniforms: hours_corner, hours_cell, hours, focus, night, lines, both_sides, tinted, overlay, painted, unused),
-    layout!(LookUniforms: building, cut_earth, ground, sky, sky_light, sky_slope, sun_light, exposure, horizon, least_height, zenith, least_sun, night, pressed_above, not_judged, pressed_room, plan_ground_sun, sky_rise, plan_ground_shade, sky_most, plan_roof_sun, haze_begins, plan_roof_shade, haze_length, line, relief, volume, relief_of_hours, silhouette, relief_darkest, relief_lightest, outline, step, foot, crease, crease_cos, plan_crease_cos, step_share, side_step_pixels, tinted_lines, layer, most_layers),
+    layout!(LookUniforms: building, cut_earth, ground, sky, sky_light, sky_slope, sun_light, exposure, horizon, least_height, zenith, least_sun, night, pressed_above, not_judged, pressed_room, plan_ground_sun, sky_rise, plan_ground_shade, sky_most, plan_roof_sun, haze_begins, plan_roof_shade, haze_length, line, relief, volume, relief_of_hours, silhouette, relief_darkest, hours_ground, hours_card, hours_card_slope, hours_wall, relief_lightest, outline, step, foot, crease, crease_cos, plan_crease_cos, step_share, side_step_pixels, tinted_lines, layer, most_layers, hours_wall_slope, hours_height_m, hours_least_up, plan_tint_shade, relief_level, plan_step_least_m, plan_step_most_m, plan_wall_up),
     layout!(WeightUniforms: secs),
     layout!(FallUniforms: a_metre, size),
     layout!(TexelRunUniforms: first, count),

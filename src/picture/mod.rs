@@ -204,7 +204,8 @@ impl Picture {
         (self.overlay, self.cells) = ([None, None], None);
     }
 
-    /// Draws the picture into the target. If the sun is not above the horizon it is night, whatever the mask.
+    /// Draws the picture into the target. If sun and shadow are shown and the sun is not above the
+    /// horizon it is night, whatever the mask.
     ///
     /// # Errors
     /// Where the adapter fails.
@@ -246,12 +247,14 @@ impl Picture {
             Some(HoursTextures::Plan(corner, _)) => (*corner, 1.0),
             Some(HoursTextures::Patches(_)) => ([0.0, 0.0, 1.0], 2.0),
         };
+        let hours = if style.hours { over } else { 0.0 };
         PictureUniforms {
             hours_corner: [west, north],
             hours_cell: cell,
-            hours: if style.hours { over } else { 0.0 },
+            hours,
             focus: style.focus_m.max(1e-3) as f32,
-            night: is(to_sun.z <= 0.0),
+            // hours are of a day, whatever the clock says
+            night: is(to_sun.z <= 0.0 && hours == 0.0),
             // lines would be taken for cells
             lines: if self.cells.is_some() { 0.0 } else { style.lines },
             both_sides: is(style.wide_lines),
@@ -344,6 +347,10 @@ fn uniform(look: &Look) -> layout::LookUniforms {
         relief_of_hours: look.relief_of_hours as f32,
         silhouette: bytes(look.silhouette),
         relief_darkest: look.relief_darkest as f32,
+        hours_ground: bytes(look.hours_ground),
+        hours_card: look.hours_card as f32,
+        hours_card_slope: linear(look.hours_card_slope),
+        hours_wall: look.hours_wall as f32,
         relief_lightest: look.relief_lightest as f32,
         outline: look.outline,
         step: look.step,
@@ -356,5 +363,13 @@ fn uniform(look: &Look) -> layout::LookUniforms {
         tinted_lines: look.tinted_lines,
         layer: look.layer as f32,
         most_layers: look.most_layers as f32,
+        hours_wall_slope: look.hours_wall_slope as f32,
+        hours_height_m: look.hours_height_m as f32,
+        hours_least_up: look.hours_least_up as f32,
+        plan_tint_shade: look.plan_tint_shade as f32,
+        relief_level: look.relief_level as f32,
+        plan_step_least_m: look.plan_step_least_m as f32,
+        plan_step_most_m: look.plan_step_most_m as f32,
+        plan_wall_up: look.plan_wall_up as f32,
     }
 }

@@ -33,6 +33,8 @@ pub use panel::ScaleBar;
 pub use paper::{HEIGHT, WIDTH};
 pub use patches::{legend as patches_legend, patches};
 pub use screen::{Screen, bare, instant_on_screen};
+#[cfg(feature = "test-hooks")]
+pub use screen::{bare_hours, bare_patches};
 pub use strips::strips;
 pub use text::without_middle;
 pub(crate) use words::duration;

@@ -11,9 +11,6 @@ use crate::view::{Surface, View};
 use glam::Vec4Swizzles as _;
 use rayon::prelude::*;
 
-/// The ground, which is not judged either and has no entry in the legend.
-const GROUND: Rgb = [236, 234, 229];
-
 /// `surfaces.png`: the hours of sun on the patches that a camera or a side sees. The mesh of `scene` contains only
 /// receivers.
 ///
@@ -63,7 +60,7 @@ pub fn legend(found: &PatchContext) -> (String, Vec<(Rgb, String)>) {
 }
 
 /// The colour of each pixel. Those of the sky are not used.
-fn painted(scene: &FigureContext, lens: &PixelRays, found: &PatchContext) -> Vec<Rgb> {
+pub(super) fn painted(scene: &FigureContext, lens: &PixelRays, found: &PatchContext) -> Vec<Rgb> {
     let (patches, bands, samples) = (found.patches, found.bands(), found.hours.samples);
     // the scene's faces are those of the components that receive
     let atlas = Atlas::of(found);
@@ -71,7 +68,7 @@ fn painted(scene: &FigureContext, lens: &PixelRays, found: &PatchContext) -> Vec
     let colour = |pixel: usize| {
         let face = scene.surface.face[pixel];
         if face >= Surface::GROUND {
-            return GROUND;
+            return LOOK.hours_ground;
         }
         let plane = facing(scene, face, lens.viewer);
         let Some(patch) = atlas.patch(patches, face, plane.xyz()) else { return LOOK.not_judged };

@@ -166,7 +166,7 @@ fn relief_light<S>(scene: &FigureContext<S>) -> DVec3 {
 /// The factor of relief: 1 if level, less on slopes away from the light, a little more towards it.
 fn relief(normal: DVec3, light: DVec3, strength: f64) -> f64 {
     // Level roofs keep the legend's colours to the bit.
-    if normal.z > 0.9999 {
+    if normal.z > LOOK.relief_level {
         return 1.0;
     }
     (1.0 + strength * (normal.dot(light) / light.z - 1.0)).clamp(LOOK.relief_darkest, LOOK.relief_lightest)
@@ -189,8 +189,8 @@ pub(super) fn pen<S>(scene: &FigureContext<S>, surface: &Surface, cell_m: f64, a
     let [from, to] = [a, b].map(|cell| face(surface, cell).map(|face| upward(mesh, face)));
     // how much the faces rise over half a cell
     let [rise_from, rise_to] = [from, to].map(|normal| rise(normal, half));
-    // Below this a step is rounding, a kerb or a joint; and a ridge between two centres is off by half a cell of slope.
-    let step_m = (0.5 * cell_m).clamp(0.02, 0.5) + rise_from.abs() + rise_to.abs();
+    // a ridge between two centres is off by half a cell of slope
+    let step_m = (0.5 * cell_m).clamp(LOOK.plan_step_least_m, LOOK.plan_step_most_m) + rise_from.abs() + rise_to.abs();
     // where they meet
     let [height_from, height_to] = [a, b].map(|cell| f64::from(surface.height_m[cell]));
     let jump = (height_from + rise_from - (height_to - rise_to)).abs();
@@ -206,10 +206,9 @@ pub(super) fn pen<S>(scene: &FigureContext<S>, surface: &Surface, cell_m: f64, a
     }
 }
 
-/// How much a face rises over half a cell; 0 for the ground.
+/// How much a face rises over half a cell; 0 for the ground and for walls.
 fn rise(normal: Option<DVec3>, half: DVec3) -> f64 {
-    // A wall seen from above has no height to carry on with.
-    let Some(normal) = normal.filter(|normal| normal.z >= 0.1) else {
+    let Some(normal) = normal.filter(|normal| normal.z >= LOOK.plan_wall_up) else {
         return 0.0;
     };
     -(normal.x * half.x + normal.y * half.y) / normal.z

@@ -67,18 +67,47 @@ fn on_screen(sheet: &Sheet, width: u32) -> Result<Screen, ExportError> {
 /// What a view shows of sun and shadow without a sheet around it: one pixel per cell, row 0 first. Of `shown` only the
 /// components' colours apply, in a camera's picture.
 pub fn bare(scene: &FigureContext, view: &View, mask: &Mask, to_sun: DVec3, shown: &PictureExtras) -> Vec<Rgb> {
-    let size = view.size();
-    let fit = Fit { cells: size, pixels: size };
+    let fit = cell_by_cell(view);
     let lens = match view {
-        View::Plan(grid) => {
-            let mut pixels = vec![Rgb::default(); size.0 as usize * size.1 as usize];
-            plan::instant(scene, grid.cell, mask, fit).draw(0, &mut pixels);
-            return pixels;
-        }
+        View::Plan(grid) => return all(&plan::instant(scene, grid.cell, mask, fit)),
         View::Camera(camera) => PixelRays::new(camera),
         View::Elevation(side) => PixelRays::of_side(side),
     };
     let components = shown.casts.map(|casts| Components::new(scene.mesh, scene.surface, casts));
     let painted = OwnColours { components: components.as_ref(), of_cells: None };
     perspective::instant(scene, &lens, mask, to_sun, painted, fit).pixels
+}
+
+/// As [`bare`], the hours of a plan.
+#[cfg(feature = "test-hooks")]
+pub fn bare_hours(scene: &FigureContext, profile: &crate::profile::Profile) -> Vec<Rgb> {
+    let bands = super::scale::Bands::new(scene.track.step_secs, profile.day_secs);
+    all(&plan::profile(scene, profile, &bands, cell_by_cell(&View::Plan(profile.grid))))
+}
+
+/// As [`bare`], the hours on the patches that a camera or a side sees; none for a plan, of which there is no drawing.
+#[cfg(feature = "test-hooks")]
+pub fn bare_patches(
+    scene: &FigureContext,
+    view: &View,
+    found: &crate::export::patches::PatchContext,
+) -> Option<Vec<Rgb>> {
+    let lens = match view {
+        View::Plan(_) => return None,
+        View::Camera(camera) => PixelRays::new(camera),
+        View::Elevation(side) => PixelRays::of_side(side),
+    };
+    let of_cells = super::patches::painted(scene, &lens, found);
+    Some(perspective::painted(scene, &lens, &of_cells, true, cell_by_cell(view)).pixels)
+}
+
+fn cell_by_cell(view: &View) -> Fit {
+    Fit { cells: view.size(), pixels: view.size() }
+}
+
+fn all(picture: &impl Pixels) -> Vec<Rgb> {
+    let (width, height) = picture.size();
+    let mut pixels = vec![Rgb::default(); width as usize * height as usize];
+    picture.draw(0, &mut pixels);
+    pixels
 }

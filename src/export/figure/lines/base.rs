@@ -6,11 +6,9 @@ use crate::export::figure::picture::{Cells, Pen};
 use crate::export::figure::scale::{Rgb, mix};
 use crate::export::figure::svg::Block;
 use crate::export::figure::{FigureContext, plan};
+use crate::look::LOOK;
 use crate::view::{Grid, SurfaceRows};
 use rayon::prelude::*;
-
-/// The lines' ink.
-const INK: Rgb = [24, 27, 34];
 
 /// The buildings of a plan.
 pub(super) struct Base {
@@ -127,6 +125,6 @@ impl Base {
 }
 
 fn draw(block: &mut Block, data: &str, pen: Pen, paper: Rgb) {
-    let colour = mix(paper, INK, f64::from(pen.strength));
+    let colour = mix(paper, LOOK.line, f64::from(pen.strength));
     stroke(block, data, f64::from(pen.radius * 2.0), colour, "");
 }

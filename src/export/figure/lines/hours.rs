@@ -18,8 +18,6 @@ const LINE: Rgb = [172, 56, 22];
 const LABEL: LetterStyle = LetterStyle { size: 27.0, weight: FontWeight::Bold, colour: LINE };
 /// The width of a line, page pixels.
 const WIDTH: f64 = 2.6;
-/// The halo behind labels.
-const HALO: Rgb = [255, 255, 255];
 /// How much lighter the bands are than the profile's, since lines and labels lie over them.
 const LIGHTER: f64 = 0.5;
 /// The length of line per label, the shortest line with a label, and the least distance between equal labels: pixels.
@@ -86,7 +84,7 @@ pub fn iso_hours<S: SurfaceRows>(scene: &FigureContext<S>, profile: &Profile) ->
         for (secs, lines) in &lines {
             label(&mut labels, &said(*secs), lines);
         }
-        labels.draw(&mut block, HALO);
+        labels.draw(&mut block);
         block
     };
     Ok(LineDrawing::new(&panel, (grid.width, grid.height), grid.cell, draw))

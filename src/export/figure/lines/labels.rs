@@ -5,6 +5,9 @@ use crate::export::figure::scale::Rgb;
 use crate::export::figure::svg::{Block, LetterStyle, hex};
 use crate::export::figure::text;
 
+/// The halo behind labels.
+const HALO: Rgb = [255, 255, 255];
+
 /// A place for a label: its middle, and the angle of the text, radians clockwise from rightwards.
 #[derive(Clone, Copy)]
 pub(super) struct Spot {
@@ -117,7 +120,7 @@ impl Labels {
     }
 
     /// Draws the labels: first a halo that separates them from what they cover, then the text.
-    pub(super) fn draw(&self, block: &mut Block, halo: Rgb) {
+    pub(super) fn draw(&self, block: &mut Block) {
         let LetterStyle { size, .. } = self.style;
         let draw = |block: &mut Block, how: &dyn Fn(Rgb) -> String| {
             for (Spot { at: [x, y], angle, .. }, said, colour) in &self.placed {
@@ -132,7 +135,7 @@ impl Labels {
                 ));
             }
         };
-        let halo = hex(halo);
+        let halo = hex(HALO);
         super::group(block, "halos", |block| {
             let clear = format!("fill=\"{halo}\" stroke=\"{halo}\" stroke-width=\"9\" stroke-linejoin=\"round\"");
             draw(block, &|_| clear.clone());

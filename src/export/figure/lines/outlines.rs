@@ -34,7 +34,6 @@ const ROOF: Rgb = [231, 224, 210];
 const SHADE: Rgb = [92, 106, 132];
 /// The darkness of the shade where all instants overlap.
 const DARKEST: f64 = 0.55;
-const HALO: Rgb = [255, 255, 255];
 /// The width of a line, page pixels.
 const WIDTH: f64 = 3.0;
 const LABEL: LetterStyle = LetterStyle { size: 31.0, weight: FontWeight::Bold, colour: [0; 3] };
@@ -115,7 +114,7 @@ fn sheet(base: &Base, drawn: &mut [DrawnOutline], is_judged: bool, fit: Fit) -> 
         }
     });
     (0..drawn.len()).for_each(|at| label(&mut labels, drawn, at, scale));
-    labels.draw(&mut block, HALO);
+    labels.draw(&mut block);
     block
 }
 
