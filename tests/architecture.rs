@@ -18,7 +18,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("sun", &[]),
     ("view", &[]),
     ("rules", &["choice", "sun"]),
-    ("formats", &["mesh"]),
+    ("formats", &["crs", "mesh"]),
     ("site", &["choice", "crs", "mesh", "sun", "view", "formats"]),
     ("silhouette", &["mesh"]),
     ("volume", &["mesh", "silhouette"]),

@@ -144,6 +144,7 @@ fn systems_go_by_many_names() {
     assert_eq!((feet.kind(), feet.unit_m()), (CrsKind::Projected, 1200.0 / 3937.0));
     assert_eq!((feet.height_unit_m(), crs("EPSG:7415").height_unit_m()), (Some(1200.0 / 3937.0), Some(1.0)));
     assert_eq!(crs("EPSG:25832").height_unit_m(), None);
+    assert_eq!(crs("EPSG:2263+5703").height_unit_m(), Some(1.0));
     let compound = "COMPD_CS[\"c\",PROJCS[\"m\",AUTHORITY[\"EPSG\",\"2263\"]],VERT_CS[\"v\",UNIT[\"f\",0.3048]]]";
     assert_eq!(crs(compound).height_unit_m(), Some(0.3048));
 }

@@ -8,12 +8,14 @@
 mod convert;
 mod datums;
 mod definition;
+mod heights;
 mod local;
 mod meridian;
 mod names;
 mod wkt;
 
 pub use convert::MapToLocal;
+pub use heights::vertical_unit_m;
 pub use local::{LocalFrame, TOO_FAR_M};
 
 use crate::message::{Message, message};

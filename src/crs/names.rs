@@ -1,6 +1,7 @@
 //! The names of reference systems: codes of the EPSG dataset in all their spellings, and the dataset's own names.
 
 use super::definition::{Definition, shortened, unknown};
+use super::heights::vertical_unit_m;
 use crate::message::Message;
 use rustc_hash::FxHashMap;
 use std::sync::LazyLock;
@@ -23,9 +24,6 @@ const ALIASES: &[(&str, u16)] = &[
     ("ch1903lv03", 21781),
     ("sjtskkrovakeastnorth", 5514),
 ];
-
-/// Heights in feet: codes of vertical systems, and metres of their unit.
-const HEIGHTS_IN_FEET: &[(u32, f64)] = &[(6360, 1200.0 / 3937.0), (8228, 0.3048), (5702, 1200.0 / 3937.0)];
 
 /// The dataset's names as they are compared, whole and behind their last slash, and their codes; none where several systems
 /// have one.
@@ -57,8 +55,9 @@ pub(super) fn definition(text: &str) -> Result<Definition, Message> {
     let codes = codes(&lower);
     if let Some(&code) = codes.first() {
         let found = by_code(code).ok_or_else(|| unknown(&format!("EPSG:{code}")))?;
-        let second = codes.get(1).and_then(|code| HEIGHTS_IN_FEET.iter().find(|(known, _)| known == code));
-        let height_unit_m = second.map(|(_, unit)| *unit);
+        // a second system on the ground says no unit of heights
+        let second = codes.get(1).filter(|&&code| by_code(code).is_none());
+        let height_unit_m = second.and_then(|code| vertical_unit_m(*code));
         return Ok(Definition { height_unit_m, ..found });
     }
     if lower.contains("crs84") || lower == "crs:84" {

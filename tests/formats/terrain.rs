@@ -211,21 +211,58 @@ fn heights_in_feet_become_metres() {
         height.map_or(-1.0, |height| (height * 3937.0 / 1200.0) as f32)
     });
     let model = read("hills.tif", bytes, &ReadOptions::default()).unwrap();
-    let found = above(&model.parts[0], place(10, 10)).unwrap();
+    let foot = 1200.0 / 3937.0;
+    // in the file's unit, so that `scale` replaces it and converts nothing twice
+    assert_eq!(model.unit_m, Some(foot));
+    let found = above(&model.parts[0], place(10, 10)).unwrap() * foot;
     assert!((found - height(10, 10).unwrap()).abs() < 0.1001, "{found}");
-    // who says nothing is told of
-    let bytes = geotiff(&Tags { keys: &METRES[..16], no_data: None, rows_per_strip: 9 }, |height| {
-        height.unwrap_or(-9999.0) as f32
-    });
-    let mut keys = METRES[..16].to_vec();
-    keys[3] = 3;
-    drop(bytes);
-    let bytes =
-        geotiff(&Tags { keys: &keys, no_data: None, rows_per_strip: 9 }, |height| height.unwrap_or(-9999.0) as f32);
-    assert!(
-        notes(&read("hills.tif", bytes, &ReadOptions::default()).unwrap())
-            .contains("does not say the unit of its heights")
-    );
+}
+
+/// Heights of a GeoTIFF with these keys: their unit, and what the notes say of it.
+fn unit_by(keys: &[[u16; 4]]) -> (Option<f64>, String) {
+    let mut directory = vec![1, 1, 0, keys.len() as u16];
+    directory.extend(keys.iter().flatten());
+    let tags = Tags { keys: &directory, no_data: None, rows_per_strip: 9 };
+    let model =
+        read("hills.tif", geotiff(&tags, |height| height.unwrap_or(-9999.0) as f32), &ReadOptions::default()).unwrap();
+    (model.unit_m, notes(&model))
+}
+
+#[test]
+fn the_unit_of_heights_is_the_files_then_the_systems_then_the_maps() {
+    let foot = 1200.0 / 3937.0;
+    let unsaid = "does not say the unit of its heights";
+    let in_metres = [[1024, 0, 1, 1], [3072, 0, 1, 25832]];
+    let (unit, told) = unit_by(&in_metres);
+    assert!(unit == Some(1.0) && told.contains(&format!("{unsaid}; they are taken as metres\n")), "{unit:?} {told}");
+    let (unit, told) = unit_by(&[[1024, 0, 1, 1], [3072, 0, 1, 2263]]);
+    assert!((unit.unwrap() / foot - 1.0).abs() < 1e-9, "{unit:?}");
+    assert!(told.contains(&format!("{unsaid}; they are taken as feet, as its coordinates are")), "{told}");
+    // a vertical system in metres on a map in feet, and one in feet on a map in metres
+    for (map, vertical, expected) in [(2263, 5703, 1.0), (25832, 6360, foot), (25832, 8228, 0.3048)] {
+        let (unit, told) = unit_by(&[[1024, 0, 1, 1], [3072, 0, 1, map], [4096, 0, 1, vertical]]);
+        assert!(unit == Some(expected) && !told.contains(unsaid), "{unit:?} {told}");
+    }
+    // a datum of the first GeoTIFF says no unit
+    let (unit, told) = unit_by(&[[1024, 0, 1, 1], [3072, 0, 1, 2263], [4096, 0, 1, 5103]]);
+    assert!(unit.unwrap() < 0.31 && told.contains(unsaid), "{unit:?} {told}");
+    // of no map: of whichever is said later
+    let (unit, told) = unit_by(&[]);
+    assert!(unit.is_none() && told.contains(unsaid) && told.contains("`crs`"), "{unit:?} {told}");
+}
+
+#[test]
+fn a_grid_on_a_map_in_feet_has_its_heights_in_feet() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("hills.asc");
+    std::fs::write(&path, ascii_grid(&head())).unwrap();
+    std::fs::write(folder.path().join("hills.prj"), "EPSG:2263").unwrap();
+    let model = formats::read(&path, &ReadOptions::default()).unwrap();
+    assert!((model.unit_m.unwrap() / (1200.0 / 3937.0) - 1.0).abs() < 1e-9, "{:?}", model.unit_m);
+    let found = above(&model.parts[0], place(10, 10)).unwrap();
+    // 0.1 m are the terrain's error
+    assert!((found - height(10, 10).unwrap()).abs() < 0.4, "{found}");
+    assert!(notes(&model).contains("they are taken as feet, as its coordinates are"), "{}", notes(&model));
 }
 
 #[test]
@@ -259,6 +296,10 @@ fn landxml_is_northing_easting_and_height() {
     let local =
         read("ground.xml", LAND.replace("<CoordinateSystem epsgCode=\"2225\"/>", ""), &ReadOptions::default()).unwrap();
     assert_eq!((local.unit_m, local.parts[0].positions[0].z), (Some(foot), 100.0));
+    let unsaid = LAND.replace("<Imperial linearUnit=\"USSurveyFoot\"/>", "");
+    let unsaid = read("ground.xml", unsaid, &ReadOptions::default()).unwrap();
+    assert!((unsaid.unit_m.unwrap() / foot - 1.0).abs() < 1e-9, "{:?}", unsaid.unit_m);
+    assert!(notes(&unsaid).contains("they are taken as feet, as its coordinates are"), "{}", notes(&unsaid));
     let refused =
         |from: &str, to: &str| read("ground.xml", LAND.replace(from, to), &ReadOptions::default()).expect_err(to);
     assert!(refused("7 9 8", "7 9 5").contains("not all of them are there"));

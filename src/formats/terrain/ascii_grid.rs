@@ -1,6 +1,7 @@
 //! Esri's ASCII grid: a header of names and numbers, then heights, the northernmost row first.
 
 use super::grid::HeightGrid;
+use super::map::TerrainMap;
 use super::model_of;
 use crate::formats::source::stem;
 use crate::formats::whole::{sidecar, whole_file};
@@ -32,9 +33,13 @@ impl Format for AsciiGrid {
     fn read(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
         let bytes = whole_file(path)?;
         let text = std::str::from_utf8(&bytes).map_err(|_| message!["is not text"; "export it again"])?;
-        let grid = grid(text)?;
-        let crs = beside(path)?;
-        model_of(&grid, options.terrain_error_m, &stem(path), crs)
+        let mut grid = grid(text)?;
+        let mut notes = Vec::new();
+        let map = TerrainMap::of(beside(path)?, None, None, &mut notes);
+        grid.heights.iter_mut().for_each(|height| *height *= map.height_unit_m as f32);
+        let mut model = model_of(&grid, options.terrain_error_m, &stem(path), map)?;
+        model.notes.extend(notes);
+        Ok(model)
     }
 }
 

@@ -3,6 +3,8 @@
 //! OGC GeoTIFF 1.1 (19-008r4): the directory is 16-bit numbers, four for each key: its number, the tag that has its
 //! value, the count, and the value or its index in that tag.
 
+use crate::crs::vertical_unit_m;
+
 /// The values of the keys that say where and how high.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct MapKeys {
@@ -53,7 +55,7 @@ impl MapKeys {
                 .map(|code| format!("EPSG:{code}"))
                 .or_else(|| text(PROJECTED_CITATION))
                 .or_else(|| text(CITATION).filter(|_| short(MODEL_TYPE) == Some(1))),
-            height_unit_m: short(VERTICAL_UNIT).and_then(unit_m).or_else(|| code(VERTICAL).and_then(feet_of)),
+            height_unit_m: short(VERTICAL_UNIT).and_then(unit_m).or_else(|| vertical_unit_m(code(VERTICAL)?.into())),
             map_unit_m: short(PROJECTED_UNIT).and_then(unit_m),
             is_point: short(RASTER_TYPE) == Some(2),
         }
@@ -66,15 +68,6 @@ fn unit_m(code: u16) -> Option<f64> {
         9001 => Some(1.0),
         9002 => Some(0.3048),
         9003 => Some(1200.0 / 3937.0),
-        _ => None,
-    }
-}
-
-/// Metres a unit of the vertical systems that count in feet: NAVD88 in US survey feet and in feet, NGVD29.
-fn feet_of(code: u16) -> Option<f64> {
-    match code {
-        6360 | 5702 => Some(1200.0 / 3937.0),
-        8228 => Some(0.3048),
         _ => None,
     }
 }

@@ -2,6 +2,7 @@
 
 use super::geokeys::MapKeys;
 use super::grid::HeightGrid;
+use super::map::TerrainMap;
 use super::model_of;
 use crate::formats::source::stem;
 use crate::formats::whole::{sibling, sidecar};
@@ -67,13 +68,13 @@ impl Format for GeoTiff {
         let mut heights = heights(&mut tiff, [columns, rows], count)?;
         let mut notes = Vec::new();
         let no_data = no_data(&mut tiff, &heights, &mut notes);
-        let unit_m = unit(&keys, &mut notes);
+        let map = TerrainMap::of(keys.crs, keys.height_unit_m, keys.map_unit_m, &mut notes);
         for height in &mut heights {
             let is_none = no_data.is_some_and(|none| *height == none) || !height.is_finite() || height.abs() > 1e6;
-            *height = if is_none { f32::NAN } else { *height * unit_m as f32 };
+            *height = if is_none { f32::NAN } else { *height * map.height_unit_m as f32 };
         }
         let grid = HeightGrid { columns: columns as usize, rows: rows as usize, heights, first, steps };
-        let mut model = model_of(&grid, options.terrain_error_m, &stem(path), keys.crs)?;
+        let mut model = model_of(&grid, options.terrain_error_m, &stem(path), map)?;
         model.notes.extend(notes);
         Ok(model)
     }
@@ -172,25 +173,6 @@ fn no_data(tiff: &mut Tiff, heights: &[f32], notes: &mut Vec<Message>) -> Option
     let found = [-9999.0, -32768.0, -32767.0].into_iter().find(|none| heights.contains(none))?;
     notes.push(format!("does not say which number stands for no height; {found} is taken for it").into());
     Some(found)
-}
-
-/// Metres a unit of height.
-fn unit(keys: &MapKeys, notes: &mut Vec<Message>) -> f64 {
-    match (keys.height_unit_m, keys.map_unit_m) {
-        (Some(unit), _) => unit,
-        (None, Some(unit)) if unit != 1.0 => {
-            notes.push(
-                "does not say the unit of its heights; they are taken as feet, as its coordinates are"
-                    .to_owned()
-                    .into(),
-            );
-            unit
-        }
-        _ => {
-            notes.push("does not say the unit of its heights; they are taken as metres".to_owned().into());
-            1.0
-        }
-    }
 }
 
 fn damaged(error: TiffError) -> ModelFault {

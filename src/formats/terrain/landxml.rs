@@ -1,5 +1,6 @@
 //! LandXML: the triangulated surfaces of surveyors.
 
+use super::map::TerrainMap;
 use super::{NamedSheet, of_sheets};
 use crate::formats::source::stem;
 use crate::formats::whole::whole_file;
@@ -128,17 +129,13 @@ impl LandXmlFile {
 
     fn model(self, path: &Path) -> Result<Model, ModelFault> {
         let mut notes: Vec<Message> = Vec::new();
-        if self.unit_m.is_none() {
-            notes.push("does not say its unit; it is taken as metres".to_owned().into());
-        }
-        let unit_m = self.unit_m.unwrap_or(1.0);
+        // without a map the file's unit is that of all three coordinates
+        let map = TerrainMap::of(self.crs, self.unit_m, self.unit_m, &mut notes);
         let sheets = self.surfaces.into_iter().map(|surface| -> NamedSheet {
             let name = if surface.name.is_empty() { stem(path) } else { surface.name };
             (name, surface.positions, surface.triangles, PartKind::Terrain)
         });
-        let mut model = of_sheets(sheets.collect(), self.crs, notes);
-        // on a map that is the unit of heights alone
-        model.unit_m = Some(unit_m);
+        let mut model = of_sheets(sheets.collect(), map, notes);
         let mut left_out = |what: &str, count: u64, why: &str| {
             if count > 0 {
                 model.left_out.push(LeftOut { what: what.into(), count, why: why.into() });

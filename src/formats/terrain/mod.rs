@@ -8,6 +8,7 @@ mod geokeys;
 mod geotiff;
 mod grid;
 mod landxml;
+mod map;
 mod point_cells;
 mod points;
 mod thin;
@@ -20,12 +21,13 @@ pub use points::{LasPoints, POINT_CLASSES};
 use super::left_out::counted;
 use super::{Coordinates, Model, ModelFault, PartKind, Up};
 use crate::mesh::Part;
-use crate::message::message;
+use crate::message::{Message, message};
 use glam::DVec3;
 use grid::HeightGrid;
+use map::TerrainMap;
 
 /// What a raster of heights gives: one part, thinned; `name` says what people call it.
-fn model_of(grid: &HeightGrid, error_m: f64, name: &str, crs: Option<String>) -> Result<Model, ModelFault> {
+fn model_of(grid: &HeightGrid, error_m: f64, name: &str, map: TerrainMap) -> Result<Model, ModelFault> {
     let samples = grid.heights.len();
     let missing = grid.heights.iter().filter(|height| height.is_nan()).count();
     if missing == samples {
@@ -46,7 +48,7 @@ fn model_of(grid: &HeightGrid, error_m: f64, name: &str, crs: Option<String>) ->
         format!(
             "has {} heights {}, thinned to {} triangles that lie within {error_m} m of them",
             samples - missing,
-            grid.spacing(crs.is_some()),
+            grid.spacing(map.crs.is_some()),
             sheet.triangles.len(),
         );
         "`terrain_error` under [[model]] says how close"
@@ -55,14 +57,24 @@ fn model_of(grid: &HeightGrid, error_m: f64, name: &str, crs: Option<String>) ->
         let (cells, are) = (counted(missing as u64, "cell"), if missing == 1 { "is" } else { "are" });
         notes.push(message![format!("has {cells} without a height, which {are} left out of the terrain")]);
     }
-    Ok(of_sheets(vec![(name.to_owned(), sheet.positions, sheet.triangles, PartKind::Terrain)], crs, notes))
+    Ok(of_metres(vec![(name.to_owned(), sheet.positions, sheet.triangles, PartKind::Terrain)], map, notes))
 }
 
 /// What one sheet is: its name, corners, triangles and kind.
 type NamedSheet = (String, Vec<DVec3>, Vec<[u32; 3]>, PartKind);
 
-/// A model of sheets, in the coordinates of a map where one is known.
-fn of_sheets(sheets: Vec<NamedSheet>, crs: Option<String>, notes: Vec<crate::message::Message>) -> Model {
+/// A model of sheets whose heights are in metres, as thinning has them: they become the file's unit again, so that the
+/// model says that unit, and `scale` can replace it.
+fn of_metres(mut sheets: Vec<NamedSheet>, map: TerrainMap, notes: Vec<Message>) -> Model {
+    let of_a_metre = map.of_a_metre();
+    for (_, positions, ..) in &mut sheets {
+        positions.iter_mut().for_each(|corner| corner.z *= of_a_metre);
+    }
+    of_sheets(sheets, map, notes)
+}
+
+/// A model of sheets in the file's own units, in the coordinates of a map where one is known.
+fn of_sheets(sheets: Vec<NamedSheet>, map: TerrainMap, notes: Vec<Message>) -> Model {
     let kinds = sheets.iter().map(|(.., kind)| *kind).collect();
     let parts = sheets.into_iter().map(|(name, positions, triangles, _)| Part {
         aliases: vec![name.clone()],
@@ -76,9 +88,8 @@ fn of_sheets(sheets: Vec<NamedSheet>, crs: Option<String>, notes: Vec<crate::mes
         kinds,
         up: Up::Z,
         up_is_said: true,
-        // without a map nobody knows the unit in plan
-        unit_m: crs.is_some().then_some(1.0),
-        coordinates: crs.map_or(Coordinates::Local, Coordinates::Map),
+        unit_m: map.unit_m,
+        coordinates: map.crs.map_or(Coordinates::Local, Coordinates::Map),
         notes,
         ..Model::default()
     }

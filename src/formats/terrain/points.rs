@@ -1,8 +1,9 @@
 //! LAS and LAZ: measured points by their classes. Ground becomes terrain; buildings and vegetation are read on request.
 
 use super::geokeys::MapKeys;
+use super::map::TerrainMap;
 use super::point_cells::{CellBlocks, PointCells};
-use super::{NamedSheet, of_sheets, thin};
+use super::{NamedSheet, of_metres, thin};
 use crate::formats::source::stem;
 use crate::formats::{Format, LeftOut, Model, ModelFault, PartKind, ReadOptions};
 use crate::message::{Message, message};
@@ -58,10 +59,11 @@ impl Format for LasPoints {
         let file = BufReader::new(File::open(path).map_err(ModelFault::unreadable)?);
         let mut reader = Reader::new(file).map_err(damaged)?;
         let keys = keys(reader.header());
-        let unit_m = keys.height_unit_m.or(keys.map_unit_m).unwrap_or(1.0);
-        let points = ClassedPoints::read(&mut reader, unit_m)?;
+        let mut notes = Vec::new();
+        let map = TerrainMap::of(keys.crs, keys.height_unit_m, keys.map_unit_m, &mut notes);
+        let points = ClassedPoints::read(&mut reader, map.height_unit_m)?;
         let name = stem(path);
-        let mut notes = notes(&keys, &points);
+        notes.push(points.note());
         let (ground, is_classified) = points.ground()?;
         let cells = PointCells::of(&ground, is_classified)?;
         notes.extend(cells.notes(is_classified));
@@ -92,7 +94,7 @@ impl Format for LasPoints {
             let why = "neither ground nor of a class that can be asked".to_owned();
             left_out.push(LeftOut { what: "points of other classes".into(), count: other, why });
         }
-        let mut model = of_sheets(sheets, keys.crs, notes);
+        let mut model = of_metres(sheets, map, notes);
         for part in &mut model.parts {
             // by the class alone, too
             let class = part.name.rsplit('/').next().unwrap_or_default().to_owned();
@@ -133,6 +135,11 @@ impl ClassedPoints {
             }
         }
         Ok(ClassedPoints { by_class })
+    }
+
+    fn note(&self) -> Message {
+        let count: usize = self.by_class.values().map(Vec::len).sum();
+        message![format!("has {count} points")]
     }
 
     fn of_classes(&self, classes: &[u8]) -> Vec<DVec3> {
@@ -185,24 +192,6 @@ fn vertical_unit_m(wkt: &str) -> Option<f64> {
     let unit = &vertical[vertical.find("UNIT[")?..];
     let number = unit.split(',').nth(1)?.trim_end_matches(']').trim();
     number.parse().ok().filter(|unit| (1e-3..1e4).contains(unit))
-}
-
-fn notes(keys: &MapKeys, points: &ClassedPoints) -> Vec<Message> {
-    let mut notes = Vec::new();
-    match (keys.height_unit_m, keys.map_unit_m) {
-        (Some(_), _) => (),
-        (None, Some(unit)) if unit != 1.0 => {
-            notes.push(
-                "does not say the unit of its heights; they are taken as feet, as its coordinates are"
-                    .to_owned()
-                    .into(),
-            );
-        }
-        _ => notes.push("does not say the unit of its heights; they are taken as metres".to_owned().into()),
-    }
-    let count: usize = points.by_class.values().map(Vec::len).sum();
-    notes.push(format!("has {count} points").into());
-    notes
 }
 
 fn damaged(error: las::Error) -> ModelFault {
