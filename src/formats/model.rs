@@ -1,8 +1,7 @@
 //! What every reader returns: parts in the file's own coordinates, what these coordinates mean, and what was left out.
 
 use super::exact::{self, option as exact_option};
-use super::left_out::listed;
-use super::{MAX_COMPONENTS, MAX_TRIANGLES, gltf};
+use super::gltf;
 use crate::mesh::Part;
 use crate::message::{Message, Worded, message, plain_display};
 use serde::{Deserialize, Serialize};
@@ -313,32 +312,5 @@ impl Model {
     /// The number of its triangles.
     pub fn triangles(&self) -> u64 {
         self.parts.iter().map(|part| part.triangles.len() as u64).sum()
-    }
-
-    /// The model, where it holds to what every reader promises.
-    pub(super) fn checked(self) -> Result<Self, ModelFault> {
-        let triangles = self.triangles();
-        if triangles == 0 {
-            let lost = match listed(&self.left_out) {
-                lost if lost.is_empty() => lost,
-                lost => format!(" ({lost})"),
-            };
-            let what = format!("has no triangles, so nothing casts a shadow{lost}");
-            return Err(message![what; "export what stands there as a mesh or as solids"].into());
-        }
-        if triangles > MAX_TRIANGLES {
-            let what = format!("has {triangles} triangles, and a model may have {MAX_TRIANGLES}");
-            return Err(message![what; "export it in parts or with less detail"].into());
-        }
-        let corners: u64 = self.parts.iter().map(|part| part.positions.len() as u64).sum();
-        if corners > 3 * MAX_TRIANGLES {
-            let what = format!("has {corners} corners, more than {MAX_TRIANGLES} triangles can have");
-            return Err(message![what; "export it without points that no face has"].into());
-        }
-        if self.parts.len() > MAX_COMPONENTS {
-            let what = format!("has {} components, and a model may have {MAX_COMPONENTS}", self.parts.len());
-            return Err(message![what; "join its objects by material, and export it again"].into());
-        }
-        Ok(self)
     }
 }

@@ -1,6 +1,8 @@
 //! The list of all formats; a file is read as the one that it is.
 
 use super::format::{Format, HEAD_BYTES};
+use super::left_out::listed;
+use super::limits::{MAX_COMPONENTS, MAX_TRIANGLES};
 use super::model::{Model, ModelError, ModelFault, ReadOptions};
 use super::{citygml, cityjson, companion, dae, dxf, footprints, gltf, ifc, obj, ply, refused, stl, terrain, tiles3d};
 use crate::message::message;
@@ -107,7 +109,34 @@ pub(super) fn format_of(path: &Path) -> Result<&'static dyn Format, ModelFault> 
 
 /// Reads a file as one of a format.
 pub(super) fn read_as(format: &dyn Format, path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
-    Model { format: format.name(), ..format.read(path, options)? }.checked()
+    checked(Model { format: format.name(), ..format.read(path, options)? })
+}
+
+/// The model, where it holds to what every reader promises.
+fn checked(model: Model) -> Result<Model, ModelFault> {
+    let triangles = model.triangles();
+    if triangles == 0 {
+        let lost = match listed(&model.left_out) {
+            lost if lost.is_empty() => lost,
+            lost => format!(" ({lost})"),
+        };
+        let what = format!("has no triangles, so nothing casts a shadow{lost}");
+        return Err(message![what; "export what stands there as a mesh or as solids"].into());
+    }
+    if triangles > MAX_TRIANGLES {
+        let what = format!("has {triangles} triangles, and a model may have {MAX_TRIANGLES}");
+        return Err(message![what; "export it in parts or with less detail"].into());
+    }
+    let corners: u64 = model.parts.iter().map(|part| part.positions.len() as u64).sum();
+    if corners > 3 * MAX_TRIANGLES {
+        let what = format!("has {corners} corners, more than {MAX_TRIANGLES} triangles can have");
+        return Err(message![what; "export it without points that no face has"].into());
+    }
+    if model.parts.len() > MAX_COMPONENTS {
+        let what = format!("has {} components, and a model may have {MAX_COMPONENTS}", model.parts.len());
+        return Err(message![what; "join its objects by material, and export it again"].into());
+    }
+    Ok(model)
 }
 
 /// Reads a model file of any format, in this process. Every part has triangles, and there is at least one part.
