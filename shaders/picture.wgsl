@@ -215,19 +215,20 @@ fn before_camera(pixel: vec2f, face: u32) -> vec3f {
         return on_patch(face, point, normal);
     }
     // what was not counted is plain card under the sky
-    let hours = hours_at(point, normal);
+    var hours = vec4f(0.0);
+    if shown.hours == 1.0 {
+        hours = hours_at(point, normal);
+    }
     let plain = mix(card * (look.hours_card + dot(look.hours_card_slope, normal)), look.horizon, haze);
     return mix(plain, hours.rgb * (look.hours_wall + look.hours_wall_slope * normal.z), hours.a);
 }
 
 // Slopes away from the light are a little darker.
 fn relief(normal: vec3f, strength: f32) -> f32 {
-    if normal.z > look.relief_level {
-        return 1.0;
-    }
-    // half-way between up and the sun, as long as its part that points up is 1
+    // half-way between up and the sun; no branch, since lavapipe crashes where one compares with this uniform
     let across = vec3f(normalize(light.towards.xy + vec2f(1e-6, 0.0)), 1.0);
-    return clamp(1.0 + strength * (dot(normal, across) - 1.0), look.relief_darkest, look.relief_lightest);
+    let slope = clamp(1.0 + strength * (dot(normal, across) - 1.0), look.relief_darkest, look.relief_lightest);
+    return select(slope, 1.0, normal.z > look.relief_level);
 }
 
 fn from_above(pixel: vec2f, face: u32) -> vec3f {

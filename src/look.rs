@@ -63,7 +63,7 @@ pub struct Look {
     pub hours_wall_slope: f64,
     /// How far a seen point may be above or below the surface that was counted, metres, beside what its slope adds.
     pub hours_height_m: f64,
-    /// The sine of the angle to a wall's below which a face has no hours of a plan's cells.
+    /// The part of a unit normal that points up, below which a face has no hours of a plan's cells.
     pub hours_least_up: f64,
 
     /// The plan's ground in the sun.

@@ -303,6 +303,21 @@ fn hours_have_the_drawings_look() {
     }
 }
 
+/// What had drifted is seen: the ground around façades was darker in the window.
+#[test]
+fn another_ground_around_facades_is_seen() {
+    let site = sample("tower", "2026-06-21T13:00");
+    let (patches, hours) = hours_on_patches(&site);
+    let Site { place, track, mesh, receives, .. } = &site;
+    let found = PatchContext { place, track, mesh, receives, patches: &patches, hours: &hours };
+    let mut pair = pair(&site, views(&site)[0].1, Content::Patches(&found));
+    assert!(pair.compare().holds());
+    for (pixel, _) in pair.picture.iter_mut().zip(&pair.seen).filter(|(_, seen)| **seen == Surface::GROUND) {
+        *pixel = [226, 222, 210, 255];
+    }
+    assert!(!pair.compare().holds(), "another ground: {:?}", pair.compare());
+}
+
 /// What had drifted is seen: the ground's line in a side was stronger in the window.
 #[test]
 fn a_line_that_is_too_strong_and_a_colour_that_is_off_are_seen() {

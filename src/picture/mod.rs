@@ -204,8 +204,8 @@ impl Picture {
         (self.overlay, self.cells) = ([None, None], None);
     }
 
-    /// Draws the picture into the target. If sun and shadow are shown and the sun is not above the
-    /// horizon it is night, whatever the mask.
+    /// Draws the picture into the target. If sun and shadow are shown and the sun is not above the horizon,
+    /// it is night, whatever the mask.
     ///
     /// # Errors
     /// Where the adapter fails.
