@@ -273,6 +273,54 @@ fn a_picture_is_no_terrain() {
     assert!(told.contains("does not say where it lies"), "{told}");
 }
 
+/// A GeoTIFF of 8 bits, 3 × 3, that lies somewhere, with GDAL's metadata and z of its scale and tie point.
+fn small<C: colortype::ColorType<Inner = u8>>(metadata: &str, [scale, height]: [f64; 2]) -> Vec<u8> {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let mut tiff = TiffEncoder::new(&mut bytes).unwrap();
+    let mut image = tiff.new_image::<C>(3, 3).unwrap();
+    let directory = image.encoder();
+    directory.write_tag(Tag::Unknown(33550), &[2.0, 2.0, scale][..]).unwrap();
+    directory.write_tag(Tag::Unknown(33922), &[0.0, 0.0, 0.0, 1000.0, 2000.0, height][..]).unwrap();
+    directory.write_tag(Tag::Unknown(34735), &METRES[..]).unwrap();
+    directory.write_tag(Tag::Unknown(42112), metadata).unwrap();
+    image.write_data(&vec![10; 9 * C::BITS_PER_SAMPLE.len()]).unwrap();
+    bytes.into_inner()
+}
+
+#[test]
+fn a_picture_that_lies_somewhere_is_refused_and_a_grey_one_doubted() {
+    let told = read("a.tif", small::<colortype::RGB8>("", [0.0; 2]), &ReadOptions::default()).expect_err("a picture");
+    assert!(told.contains("is a picture (RGB) and no terrain"), "{told}");
+    let grey = read("a.tif", small::<colortype::Gray8>("", [0.0; 2]), &ReadOptions::default()).unwrap();
+    assert!(notes(&grey).contains("numbers of 8 bits"), "{}", notes(&grey));
+}
+
+#[test]
+fn numbers_become_heights_as_the_tags_say() {
+    let metadata = "<GDALMetadata><Item name=\"OFFSET\" sample=\"0\" role=\"offset\">1000</Item>\
+                    <Item name=\"SCALE\" sample=\"0\" role=\"scale\">0.5</Item></GDALMetadata>";
+    for (metadata, z, expected) in [("", [0.0; 2], 10.0), (metadata, [0.0; 2], 1005.0), ("", [0.5, 50.0], 55.0)] {
+        let model = read("a.tif", small::<colortype::Gray8>(metadata, z), &ReadOptions::default()).unwrap();
+        assert_eq!(model.parts[0].positions[0].z, expected);
+        assert_eq!(notes(&model).contains("times a number plus"), expected != 10.0, "{}", notes(&model));
+    }
+    let told = read("a.tif", small::<colortype::Gray8>("", [0.0, 50.0]), &ReadOptions::default()).expect_err("unclear");
+    assert!(told.contains("tie point at the height 50"), "{told}");
+}
+
+#[test]
+fn usual_numbers_for_no_height_are_none_with_a_note() {
+    for none in [-9999.0, -32768.0, -32767.0, -99999.0, 9999.0, 3.4e38, -3.4e38] {
+        let tags = Tags { keys: &METRES, no_data: None, rows_per_strip: 9 };
+        let bytes = geotiff(&tags, |height| height.unwrap_or(none) as f32);
+        let model = read("hills.tif", bytes, &ReadOptions::default()).unwrap();
+        assert!(model.parts[0].positions.iter().all(|at| (80.0..120.0).contains(&at.z)), "{none}");
+        assert!(notes(&model).contains("which number stands for no height; taken for none:"), "{}", notes(&model));
+    }
+    let heads = head().replace("NODATA_value -9999\n", "");
+    assert!(notes(&read("a.asc", ascii_grid(&heads), &ReadOptions::default()).unwrap()).contains("none: -9999"));
+}
+
 const LAND: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 <LandXML xmlns="http://www.landxml.org/schema/LandXML-1.2" version="1.2">
 <Units><Imperial linearUnit="USSurveyFoot"/></Units><CoordinateSystem epsgCode="2225"/>

@@ -2,7 +2,7 @@
 
 use super::grid::HeightGrid;
 use super::map::TerrainMap;
-use super::model_of;
+use super::{model_of, no_data};
 use crate::formats::source::stem;
 use crate::formats::whole::{sidecar, whole_file};
 use crate::formats::{Format, Model, ModelFault, ReadOptions};
@@ -33,9 +33,10 @@ impl Format for AsciiGrid {
     fn read(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
         let bytes = whole_file(path)?;
         let text = std::str::from_utf8(&bytes).map_err(|_| message!["is not text"; "export it again"])?;
-        let mut grid = grid(text)?;
+        let (mut grid, no_data) = grid(text)?;
         let mut notes = Vec::new();
         let map = TerrainMap::of(beside(path)?, None, None, &mut notes);
+        no_data::remove(&mut grid.heights, no_data, map.height_unit_m, &mut notes);
         grid.heights.iter_mut().for_each(|height| *height *= map.height_unit_m as f32);
         let mut model = model_of(&grid, options.terrain_error_m, &stem(path), map)?;
         model.notes.extend(notes);
@@ -79,7 +80,8 @@ impl GridHead {
     }
 }
 
-fn grid(text: &str) -> Result<HeightGrid, ModelFault> {
+/// The heights as they are written, and the number that stands for none.
+fn grid(text: &str) -> Result<(HeightGrid, Option<f32>), ModelFault> {
     let mut words = text.split_ascii_whitespace().peekable();
     let mut head = GridHead::default();
     while let Some(key) = words.next_if(|word| !word.starts_with(|first: char| "+-.0123456789".contains(first))) {
@@ -103,13 +105,12 @@ fn grid(text: &str) -> Result<HeightGrid, ModelFault> {
     if count > text.len() {
         return Err(cut_off(text.len(), count));
     }
-    let no_data = head.no_data.unwrap_or(-9999.0);
     let mut heights = Vec::with_capacity(count);
     for word in words.by_ref().take(count) {
         let Some(height) = number(word) else {
             return Err(message![format!("has \"{word}\" for a height"); "export it again"].into());
         };
-        heights.push(if height == no_data { f32::NAN } else { height as f32 });
+        heights.push(height as f32);
     }
     if heights.len() < count {
         return Err(cut_off(heights.len(), count));
@@ -120,7 +121,8 @@ fn grid(text: &str) -> Result<HeightGrid, ModelFault> {
     let middle = |of_corner: bool, cell: f64| if of_corner { cell / 2.0 } else { 0.0 };
     let first = DVec2::new(west + middle(of_x, dx), south + middle(of_y, dy) + (rows - 1) as f64 * dy);
     let steps = [DVec2::new(dx, 0.0), DVec2::new(0.0, -dy)];
-    Ok(HeightGrid { columns: columns as usize, rows: rows as usize, heights, first, steps })
+    let grid = HeightGrid { columns: columns as usize, rows: rows as usize, heights, first, steps };
+    Ok((grid, head.no_data.map(|number| number as f32)))
 }
 
 /// A number, with a point or a comma.

@@ -3,11 +3,12 @@
 use super::geokeys::MapKeys;
 use super::grid::HeightGrid;
 use super::map::TerrainMap;
-use super::model_of;
+use super::raster_tags::{self, PIXEL_SCALE, TIE_POINT, Tiff};
+use super::{model_of, no_data};
 use crate::formats::source::stem;
 use crate::formats::whole::{sibling, sidecar};
 use crate::formats::{Format, Model, ModelFault, ReadOptions};
-use crate::message::{Message, message};
+use crate::message::message;
 use glam::DVec2;
 use std::fs::File;
 use std::io::BufReader;
@@ -16,18 +17,13 @@ use tiff::TiffError;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 
-/// Tags of GeoTIFF, and GDAL's of cells without a height.
-const PIXEL_SCALE: Tag = Tag::Unknown(33550);
-const TIE_POINT: Tag = Tag::Unknown(33922);
+/// Tags of GeoTIFF.
 const TRANSFORMATION: Tag = Tag::Unknown(34264);
 const KEY_DIRECTORY: Tag = Tag::Unknown(34735);
 const KEY_TEXTS: Tag = Tag::Unknown(34737);
-const NO_DATA: Tag = Tag::Unknown(42113);
 
 /// GeoTIFF elevation, `.tif`.
 pub struct GeoTiff;
-
-type Tiff = Decoder<BufReader<File>>;
 
 impl Format for GeoTiff {
     fn name(&self) -> &'static str {
@@ -65,17 +61,19 @@ impl Format for GeoTiff {
         let count = HeightGrid::counted(columns.into(), rows.into())?;
         let keys = keys(&mut tiff);
         let (first, steps) = placed(&mut tiff, &keys, path)?;
-        let mut heights = heights(&mut tiff, [columns, rows], count)?;
         let mut notes = Vec::new();
-        let no_data = no_data(&mut tiff, &heights, &mut notes);
+        raster_tags::refuse_pictures(&mut tiff, &mut notes)?;
+        let [factor, addend] = raster_tags::height_of_number(&mut tiff, &mut notes)?;
+        let mut heights = heights(&mut tiff, [columns, rows], count)?;
         let map = TerrainMap::of(keys.crs, keys.height_unit_m, keys.map_unit_m, &mut notes);
-        for height in &mut heights {
-            let is_none = no_data.is_some_and(|none| *height == none) || !height.is_finite() || height.abs() > 1e6;
-            *height = if is_none { f32::NAN } else { *height * map.height_unit_m as f32 };
-        }
+        let number_m = map.height_unit_m * factor.abs();
+        no_data::remove(&mut heights, raster_tags::no_data(&mut tiff), number_m, &mut notes);
+        let metres = |number: f32| ((f64::from(number) * factor + addend) * map.height_unit_m) as f32;
+        heights.iter_mut().for_each(|height| *height = metres(*height));
         let grid = HeightGrid { columns: columns as usize, rows: rows as usize, heights, first, steps };
         let mut model = model_of(&grid, options.terrain_error_m, &stem(path), map)?;
         model.notes.extend(notes);
+        model.left_out.extend(raster_tags::further_bands(&mut tiff));
         Ok(model)
     }
 }
@@ -162,17 +160,6 @@ fn numbers(read: DecodingResult) -> Vec<f32> {
         };
     }
     all!(U8, U16, U32, U64, F64, I8, I16, I32, I64)
-}
-
-/// The number that stands for no height: what the file says, otherwise the most usual where it stands there.
-fn no_data(tiff: &mut Tiff, heights: &[f32], notes: &mut Vec<Message>) -> Option<f32> {
-    if let Ok(text) = tiff.get_tag_ascii_string(NO_DATA) {
-        return text.trim_end_matches('\0').trim().parse::<f64>().ok().map(|number| number as f32);
-    }
-    // no ground is so low; who writes such a number means none
-    let found = [-9999.0, -32768.0, -32767.0].into_iter().find(|none| heights.contains(none))?;
-    notes.push(format!("does not say which number stands for no height; {found} is taken for it").into());
-    Some(found)
 }
 
 fn damaged(error: TiffError) -> ModelFault {

@@ -9,8 +9,10 @@ mod geotiff;
 mod grid;
 mod landxml;
 mod map;
+mod no_data;
 mod point_cells;
 mod points;
+mod raster_tags;
 mod thin;
 
 pub use ascii_grid::AsciiGrid;
