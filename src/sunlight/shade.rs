@@ -6,7 +6,7 @@
 //! face is. Seconds so near a face's side that the polynomials cannot tell are doubtful: the exact ray decides them.
 
 use super::face_tree::{BoxContents, FaceTree, SeenFace, SunCoverage};
-use super::sift::{Halfspace, Verdict, sift, sift_flat};
+use super::sift::{Halfspace, Sureness, sift, sift_flat};
 use super::sky_cells::{SunCell, SunCells, SunPyramid};
 use super::sun_path::{MOST_OFF_RAD, SLOT_SECS, Second, SunPath, SunPiece};
 use glam::{DVec3, Vec3};
@@ -258,11 +258,11 @@ impl<'a> OpenSeconds<'a> {
             }
             let mut covered: Vec<[Second; 2]> = Vec::new();
             sift(halfspaces, piece, seconds, &mut |verdict, first, last| match verdict {
-                Verdict::Above => match covered.last_mut() {
+                Sureness::Above => match covered.last_mut() {
                     Some(run) if run[1] + 1 == first => run[1] = last,
                     _ => covered.push([first, last]),
                 },
-                Verdict::Doubtful => shade.doubtful.extend(first..=last),
+                Sureness::Doubtful => shade.doubtful.extend(first..=last),
             });
             if covered.is_empty() {
                 at += 1;

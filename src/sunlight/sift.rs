@@ -5,7 +5,7 @@ use glam::DVec3;
 
 /// What was found of some seconds.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Verdict {
+pub(super) enum Sureness {
     Above,
     Doubtful,
 }
@@ -54,7 +54,7 @@ pub(super) fn sift<const N: usize>(
     halfspaces: &[Halfspace; N],
     piece: &SunPiece,
     [first, last]: [Second; 2],
-    found: &mut impl FnMut(Verdict, Second, Second),
+    found: &mut impl FnMut(Sureness, Second, Second),
 ) {
     let bounded = halfspaces.each_ref().map(|halfspace| BoundedPolynomial::new(halfspace, piece));
     let at = |second: Second| bounded.each_ref().map(|function| function.at(piece.unit(second)));
@@ -65,7 +65,7 @@ fn split<const N: usize>(
     bounded: &[BoundedPolynomial; N],
     piece: &SunPiece,
     ([first, last], values): ([Second; 2], [[f64; N]; 2]),
-    found: &mut impl FnMut(Verdict, Second, Second),
+    found: &mut impl FnMut(Sureness, Second, Second),
 ) {
     let units = f64::from(last - first) / piece.unit_secs;
     let mut all_above = true;
@@ -82,10 +82,10 @@ fn split<const N: usize>(
         }
     }
     if all_above {
-        return found(Verdict::Above, first, last);
+        return found(Sureness::Above, first, last);
     }
     if first == last {
-        return found(Verdict::Doubtful, first, last);
+        return found(Sureness::Doubtful, first, last);
     }
     let length = f64::from(last - first);
     let middle = (first + (cut.unwrap_or(0.5) * length) as Second).clamp(first, last - 1);

@@ -70,20 +70,20 @@ struct FaceBox {
 
 /// A box that grows.
 #[derive(Clone, Copy)]
-struct Extent {
+struct BoxExtent {
     low: Vec3A,
     high: Vec3A,
 }
 
-impl Extent {
-    const NOTHING: Extent = Extent { low: Vec3A::INFINITY, high: Vec3A::NEG_INFINITY };
+impl BoxExtent {
+    const NOTHING: BoxExtent = BoxExtent { low: Vec3A::INFINITY, high: Vec3A::NEG_INFINITY };
 
-    fn with(self, low: Vec3A, high: Vec3A) -> Extent {
-        Extent { low: self.low.min(low), high: self.high.max(high) }
+    fn with(self, low: Vec3A, high: Vec3A) -> BoxExtent {
+        BoxExtent { low: self.low.min(low), high: self.high.max(high) }
     }
 
-    fn of(boxed: &[FaceBox]) -> Extent {
-        boxed.iter().fold(Extent::NOTHING, |extent, one| extent.with(one.low, one.high))
+    fn of(boxed: &[FaceBox]) -> BoxExtent {
+        boxed.iter().fold(BoxExtent::NOTHING, |extent, one| extent.with(one.low, one.high))
     }
 
     /// Half of its surface, square metres; 0 for nothing.
@@ -188,14 +188,14 @@ impl GrowingTree {
 
 /// Some faces, the number of the first one, and the box around all.
 struct FacePart<'a> {
-    extent: Extent,
+    extent: BoxExtent,
     first: usize,
     faces: &'a mut [FaceBox],
 }
 
 impl FacePart<'_> {
     fn of(faces: &mut [FaceBox], first: usize) -> FacePart<'_> {
-        FacePart { extent: Extent::of(faces), first, faces }
+        FacePart { extent: BoxExtent::of(faces), first, faces }
     }
 
     /// How much is won by dividing it; nothing where it fits half a block, which is not worth another box.
@@ -224,13 +224,13 @@ fn divided(faces: &mut [FaceBox], first: usize, depth: usize) -> ArrayVec<FacePa
 /// Sorts faces so that dividing them at the place that is returned makes rays cheapest; none where all lie in one place.
 fn by_area(faces: &mut [FaceBox]) -> Option<usize> {
     let centre = |boxed: &FaceBox| boxed.low + boxed.high;
-    let centres = faces.iter().fold(Extent::NOTHING, |extent, boxed| extent.with(centre(boxed), centre(boxed)));
+    let centres = faces.iter().fold(BoxExtent::NOTHING, |extent, boxed| extent.with(centre(boxed), centre(boxed)));
     let size = centres.high - centres.low;
     // the longest axis alone: the two others cost three times as much and gain nothing that rays notice
     let axis = size.max_position();
     let per_metre = BINS as f32 * 0.999 / size[axis];
     let bin = |boxed: &FaceBox| (((centre(boxed)[axis] - centres.low[axis]) * per_metre) as usize).min(BINS - 1);
-    let mut bins = [(Extent::NOTHING, 0u32); BINS];
+    let mut bins = [(BoxExtent::NOTHING, 0u32); BINS];
     for boxed in faces.iter() {
         let (extent, count) = &mut bins[bin(boxed)];
         *extent = extent.with(boxed.low, boxed.high);
@@ -241,14 +241,14 @@ fn by_area(faces: &mut [FaceBox]) -> Option<usize> {
 }
 
 /// The bin at which the upper part begins; none where all is in one.
-fn cheapest(bins: &[(Extent, u32); BINS]) -> Option<usize> {
+fn cheapest(bins: &[(BoxExtent, u32); BINS]) -> Option<usize> {
     let mut above = [(0.0, 0); BINS];
-    let mut so_far = (Extent::NOTHING, 0);
+    let mut so_far = (BoxExtent::NOTHING, 0);
     for at in (1..BINS).rev() {
         so_far = (so_far.0.with(bins[at].0.low, bins[at].0.high), so_far.1 + bins[at].1);
         above[at] = (so_far.0.area(), so_far.1);
     }
-    let mut so_far = (Extent::NOTHING, 0);
+    let mut so_far = (BoxExtent::NOTHING, 0);
     let mut best: Option<(usize, f32)> = None;
     for at in 1..BINS {
         let (extent, count) = bins[at - 1];
