@@ -194,7 +194,7 @@ fn lists_and_tiles_of_something_else_are_refused() {
                 study::patches(&site, 4.0, on_event).map(drop).unwrap_err(),
             ];
             for error in errors {
-                let (StudyError::Components { list: found, length, components: 2 }) = error else { panic!("{error}") };
+                let StudyError::Components { list: found, length, components: 2 } = error else { panic!("{error}") };
                 assert_eq!((found, length), (list, flags.len()));
             }
         }

@@ -82,7 +82,7 @@ pub(super) struct WindowArgs {
 #[derive(Debug, Args)]
 pub(super) struct ResolutionArgs {
     /// To within what time the changes of light between two instants are found: 1min, 10s; step for the instants alone
-    /// [default: 1min, or the step where that is shorter]
+    /// [default: on a single day 1min, or the step where that is shorter; on several days step]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     resolution: Option<String>,
 }

@@ -39,9 +39,9 @@ impl Format for Stl {
     fn read(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
         let bytes = whole_file(path)?;
         let mut model = match triangles_of(&bytes)? {
-            Some((triangles, behind)) => {
+            Some(StlNumbers { triangles, bytes_behind }) => {
                 let mut model = of_numbers(triangles, path, options);
-                model.notes.extend(surplus(triangles.len(), behind));
+                model.notes.extend(surplus(triangles.len(), bytes_behind));
                 model
             }
             None => of_text(&as_ascii(bytes), path)?,
@@ -63,8 +63,15 @@ fn surplus(promised: usize, behind: usize) -> Option<Message> {
     })
 }
 
-/// The triangles of a binary file, as many as it promises, and how many bytes follow; none where it is text. Binary files may begin with "solid", too, so the size decides.
-fn triangles_of(bytes: &[u8]) -> Result<Option<(&[[u8; TRIANGLE]], usize)>, Message> {
+/// What a binary file holds.
+struct StlNumbers<'a> {
+    /// As many triangles as it promises.
+    triangles: &'a [[u8; TRIANGLE]],
+    bytes_behind: usize,
+}
+
+/// The numbers of a binary file; none where it is text. Binary files may begin with "solid", too, so the size decides.
+fn triangles_of(bytes: &[u8]) -> Result<Option<StlNumbers<'_>>, Message> {
     let is_text = words(bytes.get(..200.min(bytes.len())).unwrap_or_default())
         .next()
         .is_some_and(|word| as_ascii(word.to_vec()).eq_ignore_ascii_case(b"solid"))
@@ -76,12 +83,13 @@ fn triangles_of(bytes: &[u8]) -> Result<Option<(&[[u8; TRIANGLE]], usize)>, Mess
     };
     let (triangles, rest) = body.as_chunks();
     if triangles.len() == count && rest.is_empty() {
-        return Ok(Some((triangles, 0)));
+        return Ok(Some(StlNumbers { triangles, bytes_behind: 0 }));
     }
     if is_text {
         return Ok(None);
     }
-    triangles.get(..count).map(|read| Some((read, body.len() - TRIANGLE * count))).ok_or_else(|| {
+    let bytes_behind = body.len().saturating_sub(TRIANGLE * count);
+    triangles.get(..count).map(|triangles| Some(StlNumbers { triangles, bytes_behind })).ok_or_else(|| {
         let what = format!("promises {count} triangles, and holds {}", triangles.len());
         message![what; "the file is cut off or damaged: copy or export it again"]
     })

@@ -193,7 +193,7 @@ pub const SITE_KEYS: &[SiteKey] = &[
         .default("must be written")
         .means("The time from one instant to the next: `\"30min\"`, `\"1h\"`, `\"1h30\"`, `\"90s\"`."),
     key("study", "resolution", ValueType::Text, "resolution = \"1min\"")
-        .default("`\"1min\"`, or the step where that is shorter")
+        .default("on a single day `\"1min\"`, or the step where that is shorter; on several days `\"step\"`")
         .means(
             "To within what time the moments are found at which a cell's light changes between two instants, by halving; see \
              [techniques.md](techniques.md#between-instants). `\"step\"`: the instants alone.",

@@ -13,7 +13,8 @@ pub(super) const MOST_INSTANTS: i64 = 1_000_000;
 /// Ten years: weights and their sums stay far inside their integers.
 pub const MOST_DAYS: i64 = 3660;
 
-/// To how many seconds times of change are found where nobody says and the step is longer.
+/// To how many seconds times of change are found on a single day where nobody says and the step is longer. On several days
+/// the search would take as long as a study by the minute, so it is left to who asks for it.
 const RESOLUTION_SECS: u32 = 60;
 
 /// The requested window of a study: from one reading to another, in steps.
@@ -284,7 +285,7 @@ pub(super) fn track(
         days,
         each_day: None,
         step_secs,
-        resolution_secs: step_secs.min(RESOLUTION_SECS),
+        resolution_secs: if windows.len() == 1 { step_secs.min(RESOLUTION_SECS) } else { 0 },
         refraction,
         delta_t_secs,
     })
