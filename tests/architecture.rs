@@ -156,7 +156,7 @@ const RESERVED: &[(&str, &[&str], &str)] = &[
         &["formats", "site", "rules", "export", "deliver", "sun"],
         "only formats, site and rules read what the user wrote, export and deliver what they wrote themselves, and sun the system's rules of clocks",
     ),
-    ("File::open", &["formats", "site"], "only formats and site read what the user wrote"),
+    ("File::open", &["formats", "site", "deliver"], "they read users' files, deliver its own bits"),
     // gpu and shadow name shaders and passes so
     ("\"stencil\"", &["choice", "gpu", "shadow"], "techniques are types until they are printed"),
     ("\"projected\"", &["choice", "gpu", "shadow"], "techniques are types until they are printed"),

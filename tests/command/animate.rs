@@ -116,7 +116,7 @@ fn what_cannot_be_is_told_before_the_work() {
     fails(at, "animate . --width 100", 2, &["--width", "320"]);
     fails(at, "animate . --fps 0", 2, &["--fps", "1..=50"]);
     fails(at, "animate . --view camera --cell 2", 2, &["--cell", "--view camera"]);
-    fails(at, "animate . --receivers surfaces", 2, &["--receivers", "gnomon profile"]);
+    fails(at, "animate . --receivers surfaces", 2, &["--receivers", "a study's profile"]);
     fails(at, "animate . --out site.toml", 1, &["site.toml", "--out"]);
     assert!(names(at.join("out")).is_empty());
 }

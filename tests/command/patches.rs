@@ -266,7 +266,7 @@ fn what_a_study_notes_stands_in_its_report() {
             "{command}: {report}"
         );
     };
-    has("profile . --receivers surfaces", "of 1 of 1 patches (60 m²) nothing tells the outer side");
+    has("profile . --receivers surfaces", "1 of 1 patches (60 m²) has no known outer side");
     // a disc's changes of light are not found
     let soft = "--size 20 --technique ray-cast --sun-samples 2";
     for command in ["profile .", "compare . ."] {

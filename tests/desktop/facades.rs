@@ -145,7 +145,7 @@ fn notes_of_a_study_are_told() {
     let text = std::fs::read_to_string(&site).unwrap().replace("works.glb\"", "sheet.obj\"\nup = \"z\"");
     std::fs::write(&site, text).unwrap();
     let mut harness = window(Some(&site));
-    let note = "of 1 of 1 patches (60 m²) nothing tells the outer side";
+    let note = "1 of 1 patches (60 m²) has no known outer side";
     assert!(harness.query_by_label_contains(note).is_none());
     click(&mut harness, "On façades, too");
     click(&mut harness, "Find the hours");
