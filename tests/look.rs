@@ -158,9 +158,10 @@ fn hours_on_patches(site: &Site) -> (Patches, PatchHours) {
     let patches = Patches::of(&site.mesh, &site.receives, 8.0, MOST_TEXELS);
     let mut lit = vec![0; patches.texels.len()];
     for (number, patch) in patches.list.iter().enumerate() {
-        for texel in patch.texels.start as usize..patch.texels.end as usize {
-            let half = u32::from(patches.texels[texel].column > patch.width as u16 / 2);
-            lit[texel] = (number as u32 + half) % (DAY_HOURS + 1) * 3600;
+        let of_patch = patch.texels.start as usize..patch.texels.end as usize;
+        for (lit, texel) in lit[of_patch.clone()].iter_mut().zip(&patches.texels[of_patch]) {
+            let half = u32::from(texel.column > patch.width as u16 / 2);
+            *lit = (number as u32 + half) % (DAY_HOURS + 1) * 3600;
         }
     }
     (patches, PatchHours { lit, samples: 1, day_secs: DAY_HOURS * 3600, night_secs: 0 })
