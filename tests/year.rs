@@ -316,7 +316,7 @@ fn several_days_are_the_sum_of_each() {
             other => panic!("{other:?}"),
         }
     };
-    let window = "--from 10:00 --to 11:00 --step 20min";
+    let window = "--from 10:00 --to 11:00 --step 20min --resolution 1min";
     let all = hours(&format!("--from-date 2026-03-28 --to-date 2026-03-30 {window}"));
     let first: NaiveDate = "2026-03-28".parse().unwrap();
     let each: Vec<_> = (0..3).map(|day| hours(&format!("--date {} {window}", first + TimeDelta::days(day)))).collect();
