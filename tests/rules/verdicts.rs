@@ -1,7 +1,18 @@
 //! How days and criteria become one verdict.
 
 use super::{calendar, hours, lit, lit_in, minutes, rule, spells};
-use gnomon::rules::{DayLight, Excuse, Quantity, Verdict};
+use gnomon::rules::{DayLight, Excuse, Quantity, ResolvedRule, RuleDay, Ruling, Verdict};
+
+/// The ruling over days, each of which has one spell of sun of so many seconds.
+fn ruling_of(rule: &ResolvedRule, days: &[RuleDay], secs: impl Fn(usize) -> i64) -> Ruling {
+    let lit: Vec<_> = days.iter().enumerate().map(|(at, day)| spells(day, &[secs(at)])).collect();
+    let lights: Vec<_> = days
+        .iter()
+        .zip(&lit)
+        .map(|(day, lit)| DayLight { day, open: &day.windows, lit, before: None, newly_shaded: None })
+        .collect();
+    rule.judge_time(None, &lights).expect("a ruling")
+}
 
 #[test]
 fn verdicts_of_many_are_one() {
@@ -20,19 +31,7 @@ fn verdicts_of_many_are_one() {
 fn the_worst_day_of_a_range_decides() {
     let light = rule("nl-tno-light", &[]);
     let days = calendar(&light);
-    let ruling = |worst: usize, secs: i64| {
-        let lit: Vec<_> = days
-            .iter()
-            .enumerate()
-            .map(|(at, day)| spells(day, &[if at == worst { secs } else { hours(5) }]))
-            .collect();
-        let lights: Vec<_> = days
-            .iter()
-            .zip(&lit)
-            .map(|(day, lit)| DayLight { day, open: &day.windows, lit, before: None, newly_shaded: None })
-            .collect();
-        light.judge_time(None, &lights).expect("a ruling")
-    };
+    let ruling = |worst: usize, secs: i64| ruling_of(&light, &days, |at| if at == worst { secs } else { hours(5) });
     let fails = ruling(100, hours(2) - 1);
     assert_eq!(fails.verdict, Verdict::Fail);
     assert_eq!(fails.deciding, Some(100));
@@ -50,19 +49,7 @@ fn the_worst_day_of_a_range_decides() {
 fn the_best_day_of_a_range_decides() {
     let exposure = rule("eu-en-17037-sunlight", &[("above", "11")]);
     let days = calendar(&exposure);
-    let ruling = |best: usize, secs: i64| {
-        let lit: Vec<_> = days
-            .iter()
-            .enumerate()
-            .map(|(at, day)| spells(day, &[if at == best { secs } else { minutes(20) }]))
-            .collect();
-        let lights: Vec<_> = days
-            .iter()
-            .zip(&lit)
-            .map(|(day, lit)| DayLight { day, open: &day.windows, lit, before: None, newly_shaded: None })
-            .collect();
-        exposure.judge_time(None, &lights).expect("a ruling")
-    };
+    let ruling = |best: usize, secs: i64| ruling_of(&exposure, &days, |at| if at == best { secs } else { minutes(20) });
     for (secs, verdict, grade) in [
         (minutes(90) - 1, Verdict::Fail, None),
         (minutes(90), Verdict::Pass, Some("minimum")),
@@ -88,14 +75,7 @@ fn the_grade_of_several_days_is_the_lowest() {
     let every = rule.resolve(&[("above", "11")]).expect("options");
     let days = calendar(&every);
     let grade = |odd: i64, others: i64| {
-        let lit: Vec<_> =
-            days.iter().enumerate().map(|(at, day)| spells(day, &[if at == 20 { odd } else { others }])).collect();
-        let lights: Vec<_> = days
-            .iter()
-            .zip(&lit)
-            .map(|(day, lit)| DayLight { day, open: &day.windows, lit, before: None, newly_shaded: None })
-            .collect();
-        let ruling = every.judge_time(None, &lights).expect("a ruling");
+        let ruling = ruling_of(&every, &days, |at| if at == 20 { odd } else { others });
         (ruling.verdict, ruling.grade)
     };
     let named = |grade: &str| (Verdict::Pass, Some(grade.to_owned()));
@@ -111,15 +91,7 @@ fn criteria_are_of_their_own_days() {
     let din = rule("de-din-5034-1", &[]);
     let days = calendar(&din);
     assert_eq!(days.len(), 2);
-    let ruling = |equinox: i64, winter: i64| {
-        let lit = [spells(&days[0], &[equinox]), spells(&days[1], &[winter])];
-        let lights: Vec<_> = days
-            .iter()
-            .zip(&lit)
-            .map(|(day, lit)| DayLight { day, open: &day.windows, lit, before: None, newly_shaded: None })
-            .collect();
-        din.judge_time(None, &lights).expect("a ruling")
-    };
+    let ruling = |equinox: i64, winter: i64| ruling_of(&din, &days, |at| [equinox, winter][at]);
     assert_eq!(ruling(hours(4), hours(1)).verdict, Verdict::Pass);
     let winter = ruling(hours(4), hours(1) - 1);
     assert_eq!(winter.verdict, Verdict::Fail);
