@@ -16,6 +16,7 @@ mod georeference;
 mod ground;
 mod in_memory;
 mod inputs;
+mod judged;
 mod key_notes;
 mod key_table;
 mod keys;
@@ -57,6 +58,8 @@ pub use ground::metres;
 pub use ground::{Ground, GroundFrom, GroundKind};
 #[doc(hidden)]
 pub use inputs::inputs;
+#[doc(hidden)]
+pub use judged::{AreaSurface, JudgedArea, JudgedFacade, JudgedPlot, JudgedSite, JudgedState, JudgedWindow, PlotSide};
 #[doc(hidden)]
 pub use key_table::{SITE_KEYS, SITE_TABLES, SiteKey, ValueType};
 pub use likeness::{Likeness, Mend};
