@@ -185,9 +185,9 @@ impl fmt::Display for SceneName {
 pub struct ReadOptions {
     /// The scene; by default the file's default scene.
     pub scene: Option<SceneName>,
-    /// Numbers with a coarser step than this get a note, in the file's units.
-    #[serde(with = "exact")]
-    pub told_step: f64,
+    /// Metres a unit of the file, where the user says so; by default as the file says.
+    #[serde(with = "exact_option")]
+    pub scale: Option<f64>,
     /// Metres from the ground to the roof of a footprint whose file says no height.
     #[serde(with = "exact_option")]
     pub default_height_m: Option<f64>,
@@ -202,7 +202,7 @@ impl Default for ReadOptions {
     fn default() -> Self {
         Self {
             scene: None,
-            told_step: Self::TOLD_M,
+            scale: None,
             default_height_m: None,
             terrain_error_m: Self::TERRAIN_ERROR_M,
             point_classes: Vec::new(),
@@ -212,9 +212,14 @@ impl Default for ReadOptions {
 
 impl ReadOptions {
     /// Finer steps get no note, metres. A receiver is judged at this height.
-    pub const TOLD_M: f64 = 0.001;
+    const TOLD_M: f64 = 0.001;
     /// The default of the greatest distance of a thinned terrain from its heights, metres.
     pub const TERRAIN_ERROR_M: f64 = 0.1;
+
+    /// Numbers with a coarser step than this get a note, in the units of a file that says how many metres one is.
+    pub(super) fn told_step(&self, unit_m: f64) -> f64 {
+        Self::TOLD_M / self.scale.unwrap_or(unit_m)
+    }
 }
 
 /// A model file that cannot be used.

@@ -108,7 +108,7 @@ fn of_numbers(triangles: &[[u8; TRIANGLE]], path: &Path, options: &ReadOptions) 
             tally.add("triangles", "a coordinate is no number");
         }
     }
-    note_floats(&mut part, options.told_step);
+    note_floats(&mut part, options.told_step(1.0));
     Model { parts: vec![part], left_out: tally.into_left_out(), ..Model::default() }
 }
 

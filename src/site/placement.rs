@@ -34,10 +34,9 @@ pub struct Placement {
 impl Placement {
     /// The options for the reader.
     pub fn read_options(&self) -> ReadOptions {
-        let told_step = ReadOptions::TOLD_M / self.scale.unwrap_or(1.0);
         ReadOptions {
             scene: self.scene.clone(),
-            told_step,
+            scale: self.scale,
             default_height_m: self.default_height_m,
             terrain_error_m: self.terrain_error_m.unwrap_or(ReadOptions::TERRAIN_ERROR_M),
             point_classes: self.point_classes.clone(),

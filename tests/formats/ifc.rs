@@ -19,9 +19,12 @@ fn read_as(name: &str, bytes: &[u8]) -> Result<Model, String> {
     read.map_err(|error| error.to_string().replace(&path.display().to_string(), name))
 }
 
-/// What a file gives that must be read.
+/// What a file gives that must be read, its corners in metres.
 fn read(text: &str) -> Model {
-    read_as("house.ifc", text.as_bytes()).expect("read")
+    let mut model = read_as("house.ifc", text.as_bytes()).expect("read");
+    let unit_m = model.unit_m.unwrap_or(1.0);
+    model.parts.iter_mut().flat_map(|part| &mut part.positions).for_each(|corner| *corner *= unit_m);
+    model
 }
 
 /// The part of that name.
@@ -61,10 +64,32 @@ fn left_out<'a>(model: &'a Model, what: &str) -> Option<&'a LeftOut> {
     model.left_out.iter().find(|left| left.what == what)
 }
 
+/// As any other format: so that `scale` replaces the file's unit, and does not shrink the model a second time.
 #[test]
-fn shapes_stand_where_the_file_has_them_in_metres() {
+fn corners_and_steps_are_in_the_unit_of_the_file() {
+    let of = |text: &str, scale| {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("house.ifc");
+        std::fs::write(&path, text).expect("written");
+        formats::read(&path, &ReadOptions { scale, ..ReadOptions::default() }).expect("read")
+    };
+    let model = of(&house(""), None);
+    assert_eq!((model.up, model.up_is_said, model.unit_m), (Up::Z, true, Some(0.001)));
+    let (low, high) = bounds(part(&model, "IfcWall/Brick"));
+    let apart = (low - DVec3::new(5e3, -3e3, 0.0)).abs().max((high - DVec3::new(15e3, 17e3, 30e3)).abs());
+    assert!(apart.max_element() < 0.01, "{low} to {high}");
+    assert!(model.parts.iter().all(|part| part.coarse.is_empty()), "steps of some thousandths of a millimetre");
+    // whoever takes a millimetre for ten metres has steps of some centimetres
+    let large = of(&house(""), Some(10.0));
+    let coarse = &part(&large, "IfcWall/Brick").coarse;
+    assert!(!coarse.is_empty() && coarse.iter().all(|run| (1e-4..1e-2).contains(&run.step_m)), "{coarse:?}");
+    let metres = house("").replace(".MILLI.,.METRE.", "$,.METRE.");
+    assert_eq!(of(&metres, None).unit_m, Some(1.0));
+}
+
+#[test]
+fn shapes_stand_where_the_file_has_them() {
     let model = read(&house(""));
-    assert_eq!((model.up, model.up_is_said, model.unit_m), (Up::Z, true, Some(1.0)));
     let block = part(&model, "IfcWall/Brick");
     lies(block, [5.0, -3.0, 0.0], [15.0, 17.0, 30.0]);
     // the L is 10 × 10 and 4 × 10 m; its opening takes a pocket of 2 × 2 × 3

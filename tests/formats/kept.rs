@@ -81,7 +81,7 @@ fn another_file_or_request_is_another_entry() {
     assert!(entry(&ReadOptions::default()).read().is_some());
     let others = [
         ReadOptions { default_height_m: Some(9.0), ..ReadOptions::default() },
-        ReadOptions { told_step: 1.0, ..ReadOptions::default() },
+        ReadOptions { scale: Some(1.0), ..ReadOptions::default() },
         ReadOptions { scene: Some(gnomon::formats::SceneName::Number(1)), ..ReadOptions::default() },
     ];
     for other in others {
@@ -147,7 +147,7 @@ fn oldest_entries_make_room() {
     let file = folder.path().join("tower.glb");
     let mut cache = cache(folder.path());
     let entry = |cache: &ModelCache, step: f64| {
-        let options = ReadOptions { told_step: step, ..ReadOptions::default() };
+        let options = ReadOptions { scale: Some(step), ..ReadOptions::default() };
         let entry = cache.entry(format_of(&file), &file, &options).unwrap();
         let found = entry.read().is_some();
         entry.keep(&full()).unwrap();

@@ -237,6 +237,8 @@ fn one_house_has_one_mask_in_every_format() {
         ("house.city.json", cityjson(&GABLE), tm),
         #[cfg(feature = "ifc")]
         ("house.ifc", ifc::text(), ""),
+        #[cfg(feature = "ifc")]
+        ("house.ifc", ifc::text(), "scale = 0.001"),
     ];
     for (name, text, keys) in files {
         assert_eq!(differing(name, &text, keys, &wanted), 0, "{name}");

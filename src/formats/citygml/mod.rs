@@ -44,7 +44,7 @@ impl Format for CityGml {
         }
         let file = File::open(path).map_err(ModelFault::unreadable)?;
         let mut tables = scan::scan(latin::decoded(file)?)?;
-        let mut builder = CityBuilder::new(None, options.told_step);
+        let mut builder = CityBuilder::new(None, options.told_step(1.0));
         let (coordinates, notes) = brought_in_order(&mut tables);
         std::mem::swap(&mut builder.tally, &mut tables.tally);
         objects::add(&tables, &mut builder)?;

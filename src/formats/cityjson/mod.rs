@@ -46,7 +46,7 @@ fn read(bytes: &[u8], options: &ReadOptions) -> Result<Model, ModelFault> {
         return Err(message!["has a transform with a number that is none"; "export it again"].into());
     }
     let step = head.transform.map(|transform| transform.scale.iter().fold(0.0, |most: f64, step| most.max(step.abs())));
-    let mut builder = CityBuilder::new(step, options.told_step);
+    let mut builder = CityBuilder::new(step, options.told_step(1.0));
     let templates = surfaces::Templates::of(&head);
     objects::add(&head, &transform, &templates, &mut builder)?;
     let mut count = 1_u64;

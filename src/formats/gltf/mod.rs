@@ -115,7 +115,7 @@ pub(super) fn read_bytes(
     meshes.into_iter().try_for_each(|mesh| buffers.unpack(mesh))?;
     let features = features::Features::of(&document, &buffers, context.batch);
     let build::BuiltScene { parts, kinds, from_ground, see_through } =
-        build::build(&document, &buffers, &features, &standing.placed, options.told_step)?;
+        build::build(&document, &buffers, &features, &standing.placed, options.told_step(1.0))?;
     if parts.is_empty() {
         let scene = if is_asked { "that scene" } else { "its default scene" };
         return Err(Fault::Empty { scene, way_out: notes::way_out(&document, &standing) });

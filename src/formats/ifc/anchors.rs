@@ -39,7 +39,7 @@ pub(super) struct IfcPlaces {
 pub(super) struct IfcFrame {
     /// The length of a unit of the file, metres.
     pub unit_m: f64,
-    /// The position of the site's own zero in the file's coordinates, metres.
+    /// The position of the site's own zero along the file's axes, metres.
     pub site: Option<[f64; 3]>,
 }
 
@@ -130,7 +130,7 @@ impl IfcPlaces {
         1.0
     }
 
-    /// Metres on the map a metre of the file. Scale converts units, too: from the file's to the map's.
+    /// Metres on the map a unit of the file. Scale converts units, too: from the file's to the map's.
     fn scale(&mut self, map: &GeoReference, said_by: &str, map_unit_m: f64, unit_m: f64) -> f64 {
         let factors = [map.factor_x, map.factor_y, map.factor_z];
         if factors.iter().any(|factor| (factor - map.factor_x).abs() > 1e-9) {
@@ -138,19 +138,18 @@ impl IfcPlaces {
             self.notes.push(message![format!("has another scale along each axis ({said}); the one along x is taken")]);
         }
         if said_by == "IfcRigidOperation" {
-            return 1.0;
+            return unit_m;
         }
         let written = map.scale * map.factor_x;
-        let scale = written * map_unit_m / unit_m;
         let is_forgotten = (written - 1.0).abs() < SAME && (map_unit_m / unit_m - 1.0).abs() > SAME;
         if is_forgotten {
             self.notes.push(message![format!(
                 "is in units of {unit_m} m on a map in units of {map_unit_m} m, and {said_by} has a Scale of {written}; \
                  the Scale is taken not to convert units"
             )]);
-            return written;
+            return written * unit_m;
         }
-        scale
+        written * map_unit_m
     }
 
     /// The direction of true north, by the context of the model, otherwise by that of a plan.

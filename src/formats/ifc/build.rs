@@ -61,7 +61,7 @@ fn read(file: IfcText, options: &ReadOptions) -> Result<Model, ModelFault> {
     let asked: Vec<&IfcProduct> =
         scan.products.iter().filter(|product| !layers.products.contains(&product.id)).collect();
     let known = asked.iter().map(|product| (product.id, (product.kind.clone(), product.shape))).collect();
-    let mut parts = IfcParts::new(known, decoder(), relations, layers, options.told_step);
+    let mut parts = IfcParts::new(known, decoder(), relations, layers);
     let made = shapes(&text, &scan, &asked, &mut parts)?;
     let lost: Vec<&IfcProduct> = asked.iter().copied().filter(|product| !parts.meshed.contains(&product.id)).collect();
     let count = count_note(asked.len(), &lost);
@@ -71,11 +71,13 @@ fn read(file: IfcText, options: &ReadOptions) -> Result<Model, ModelFault> {
     }
     notes.insert(0, count);
     notes.extend(loss_notes(&scan, &parts, &made));
-    let unit_m = unit_of(&scan, &mut decoder());
-    if unit_m.is_none() {
+    let frame = frame_of(&made);
+    let is_unit_said = frame.unit_m != 1.0 || says_unit(&scan, &mut decoder());
+    if !is_unit_said {
         notes.push(message!["says no unit of length, so that its numbers are taken for metres"]);
     }
-    let places = anchors::of(&scan, &frame_of(&made), &mut decoder());
+    parts.in_units_of_file(frame.unit_m, options.told_step(frame.unit_m));
+    let places = anchors::of(&scan, &frame, &mut decoder());
     notes.extend(places.notes);
     let mut left_out = left_out(&scan, &parts);
     left_out.extend(lost);
@@ -85,7 +87,7 @@ fn read(file: IfcText, options: &ReadOptions) -> Result<Model, ModelFault> {
         kinds: parts.kinds,
         up: Up::Z,
         up_is_said: true,
-        unit_m,
+        unit_m: is_unit_said.then_some(frame.unit_m),
         coordinates: Coordinates::Local,
         anchors: places.anchors,
         assumed_map_unit_m: places.assumed_map_unit_m,
@@ -151,16 +153,19 @@ fn shapes(
     Ok(made)
 }
 
-/// The unit in which the reader gives its numbers: metres, where the file says its own.
-fn unit_of(scan: &IfcScan, decoder: &mut EntityDecoder) -> Option<f64> {
-    let (project, _) = scan.georeference.iter().find(|(_, kind)| *kind == IfcType::IfcProject)?;
-    let assignment = decoder.decode_by_id(*project).ok()?.get_ref(8)?;
-    let units = decoder.decode_by_id(assignment).ok()?.get_refs(0)?;
+/// Whether the file says a unit of length.
+fn says_unit(scan: &IfcScan, decoder: &mut EntityDecoder) -> bool {
+    let mut units = || {
+        let (project, _) = scan.georeference.iter().find(|(_, kind)| *kind == IfcType::IfcProject)?;
+        let assignment = decoder.decode_by_id(*project).ok()?.get_ref(8)?;
+        decoder.decode_by_id(assignment).ok()?.get_refs(0)
+    };
+    let units = units().unwrap_or_default();
     let is_length = |unit: &u32| {
         let kind = decoder.decode_by_id(*unit).ok().and_then(|unit| unit.get(1)?.as_enum().map(str::to_owned));
         kind.is_some_and(|kind| kind.eq_ignore_ascii_case("LENGTHUNIT"))
     };
-    units.iter().any(is_length).then_some(1.0)
+    units.iter().any(is_length)
 }
 
 /// What the reader found of units and of the site.

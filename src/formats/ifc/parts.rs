@@ -1,4 +1,4 @@
-//! Meshes from the reader → parts in the file's own coordinates. A part is everything of one product that has one
+//! Meshes from the reader, in metres → parts in the file's own coordinates. A part is everything of one product that has one
 //! material.
 
 use super::super::{MAX_COMPONENTS, MAX_TRIANGLES, PartKind, SeeThrough, composed};
@@ -25,7 +25,6 @@ pub(super) struct IfcParts<'a> {
     decoder: EntityDecoder<'a>,
     relations: IfcRelations,
     pub layers: IfcLayers,
-    told_step: f64,
     /// Where the reader's zero lies, and how its axes are turned.
     frame: MeshFrame,
     /// Stops the reader when there are too many.
@@ -64,14 +63,12 @@ impl<'a> IfcParts<'a> {
         decoder: EntityDecoder<'a>,
         relations: IfcRelations,
         layers: IfcLayers,
-        told_step: f64,
     ) -> Self {
         IfcParts {
             asked,
             decoder,
             relations,
             layers,
-            told_step,
             frame: MeshFrame::RawIfc,
             stop: Arc::default(),
             triangles: 0,
@@ -194,13 +191,22 @@ impl<'a> IfcParts<'a> {
             part.positions.extend(corners.iter().map(place));
             let (triangles, _) = mesh.indices.as_chunks::<3>();
             part.triangles.extend(triangles.iter().map(|triangle| triangle.map(|corner| first + corner)));
-            let step_m = step(mesh);
-            if step_m > self.told_step {
-                part.coarse.push(CornerPrecision { corners: first..last, step_m, is_float: true });
-            }
+            part.coarse.push(CornerPrecision { corners: first..last, step_m: step(mesh), is_float: true });
         }
         self.triangles += part.triangles.len() as u64;
         part
+    }
+
+    /// Brings the parts from the reader's metres into the file's own unit, as a model of any format has it. Of the steps
+    /// those remain that are coarser than `told_step`, in that unit as well.
+    pub(super) fn in_units_of_file(&mut self, unit_m: f64, told_step: f64) {
+        for part in &mut self.parts {
+            if unit_m != 1.0 {
+                part.positions.iter_mut().for_each(|corner| *corner /= unit_m);
+                part.coarse.iter_mut().for_each(|run| run.step_m /= unit_m);
+            }
+            part.coarse.retain(|run| run.step_m > told_step);
+        }
     }
 }
 

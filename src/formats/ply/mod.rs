@@ -69,7 +69,7 @@ fn model_of(tables: PlyTables, path: &Path, has_floats: bool, options: &ReadOpti
     let name = stem(path);
     let mut part = Part { aliases: vec![name.clone()], name, positions, triangles, ..Part::default() };
     if has_floats {
-        note_floats(&mut part, options.told_step);
+        note_floats(&mut part, options.told_step(1.0));
     }
     let mut model = Model { parts: vec![part], up: Up::Z, ..Model::default() };
     model.notes.extend(cutter.crossing_note());

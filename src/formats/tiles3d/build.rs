@@ -26,11 +26,11 @@ pub(super) struct TileBuilder {
     failed: Vec<String>,
     tally: LeftOutTally,
     triangles: u64,
-    told_step: f64,
+    scale: Option<f64>,
 }
 
 impl TileBuilder {
-    pub(super) fn new(told_step: f64) -> Self {
+    pub(super) fn new(scale: Option<f64>) -> Self {
         Self {
             parts: Vec::new(),
             see_through: Vec::new(),
@@ -38,7 +38,7 @@ impl TileBuilder {
             failed: Vec::new(),
             tally: LeftOutTally::default(),
             triangles: 0,
-            told_step,
+            scale,
         }
     }
 
@@ -68,7 +68,7 @@ impl TileBuilder {
             }
             gltf => TileGltf { gltf, center: DVec3::ZERO, names: Vec::new() },
         };
-        let options = ReadOptions { told_step: self.told_step, ..ReadOptions::default() };
+        let options = ReadOptions { scale: self.scale, ..ReadOptions::default() };
         let model = gltf::read_bytes(gltf, path, &options, GltfContext { applied: &["CESIUM_RTC"], batch: &names })?;
         let center = center + gltf::json_in(gltf).map_or(DVec3::ZERO, cesium_center);
         let turned = if is_y_up { DMat4::from_rotation_x(std::f64::consts::FRAC_PI_2) } else { DMat4::IDENTITY };

@@ -34,7 +34,7 @@ impl Format for Tiles3d {
 
     fn read(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
         let bytes = whole_file(path)?;
-        let mut builder = TileBuilder::new(options.told_step);
+        let mut builder = TileBuilder::new(options.scale);
         if bytes.starts_with(b3dm::MAGIC) {
             builder.add(path, &bytes, "", DMat4::IDENTITY, true)?;
             return builder.finish();

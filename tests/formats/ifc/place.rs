@@ -94,11 +94,12 @@ fn on_map(conversion: &str, crs: &str) -> Model {
     read(&house(&more))
 }
 
+/// The scale is metres on the map a unit of the file.
 #[track_caller]
 fn is_on_map(anchor: &Anchor, name: &str, at: [f64; 3], said: f64) {
     let AnchorPoint::Map { crs, easting, northing, height, scale } = &anchor.at else { panic!("{anchor:?}") };
     assert_eq!(crs, name);
-    let apart = [easting - at[0], northing - at[1], height.unwrap_or(f64::NAN) - at[2], scale - said];
+    let apart = [easting - at[0], northing - at[1], height.unwrap_or(f64::NAN) - at[2], scale / said - 1.0];
     assert!(apart.iter().all(|apart| apart.abs() < 1e-9), "{anchor:?}");
 }
 
@@ -110,17 +111,17 @@ fn a_map_conversion_says_place_north_and_scale() {
     let model = on_map(turned, UTM);
     let said: Vec<&str> = model.anchors.iter().map(|anchor| anchor.said_by).collect();
     assert_eq!(said, ["IfcMapConversion", "IfcSite"]);
-    is_on_map(&model.anchors[0], "EPSG:25832", [458870.5, 5438230.25, 115.0], 1.0);
+    is_on_map(&model.anchors[0], "EPSG:25832", [458870.5, 5438230.25, 115.0], 0.001);
     // +x points 30° south of the map's east, so its north is 30° anticlockwise from +y
     north(&model.anchors[0], Some(-30.0));
     assert!(!notes(&model).contains("Scale"));
     assert_eq!(model.assumed_map_unit_m, None);
     // one that corrects for the map's own scale, too
     let scaled = on_map(&turned.replace("0.001)", "0.0009996)"), UTM);
-    is_on_map(&scaled.anchors[0], "EPSG:25832", [458870.5, 5438230.25, 115.0], 0.9996);
+    is_on_map(&scaled.anchors[0], "EPSG:25832", [458870.5, 5438230.25, 115.0], 0.0009996);
     // all in the project's unit, without a name
     let own = on_map("IFCMAPCONVERSION(#10,#950,15000.,0.,0.,0.,1.,$)", "'',$,$,$,$,$,$");
-    is_on_map(&own.anchors[0], "", [15.0, 0.0, 0.0], 1.0);
+    is_on_map(&own.anchors[0], "", [15.0, 0.0, 0.0], 0.001);
     assert_eq!(own.assumed_map_unit_m, Some(0.001));
     north(&own.anchors[0], Some(90.0));
 }
@@ -129,7 +130,7 @@ fn a_map_conversion_says_place_north_and_scale() {
 fn a_scale_that_forgets_the_units_is_told_and_does_not_shrink() {
     for scale in ["$", "1.", "0.9996"] {
         let model = on_map(&format!("IFCMAPCONVERSION(#10,#950,458870.5,5438230.25,115.,$,$,{scale})"), UTM);
-        let expected = scale.parse().unwrap_or(1.0);
+        let expected = 0.001 * scale.parse().unwrap_or(1.0);
         is_on_map(&model.anchors[0], "EPSG:25832", [458870.5, 5438230.25, 115.0], expected);
         north(&model.anchors[0], Some(0.0));
         assert!(notes(&model).contains("the Scale is taken not to convert units"), "{}", notes(&model));
@@ -141,10 +142,10 @@ fn a_scale_that_forgets_the_units_is_told_and_does_not_shrink() {
 fn metres_without_a_map_unit_are_told() {
     let unsaid = "'EPSG:25832',$,$,$,$,$,$";
     let model = on_map("IFCMAPCONVERSION(#10,#950,458870.5,5438230.25,115.,1.,0.,0.001)", unsaid);
-    is_on_map(&model.anchors[0], "EPSG:25832", [458870.5, 5438230.25, 115.0], 1.0);
+    is_on_map(&model.anchors[0], "EPSG:25832", [458870.5, 5438230.25, 115.0], 0.001);
     assert!(notes(&model).contains("without the map's unit"), "{}", notes(&model));
     let model = on_map("IFCMAPCONVERSION(#10,#950,458870500.,5438230250.,115000.,1.,0.,1.)", unsaid);
-    is_on_map(&model.anchors[0], "EPSG:25832", [458870.5, 5438230.25, 115.0], 1.0);
+    is_on_map(&model.anchors[0], "EPSG:25832", [458870.5, 5438230.25, 115.0], 0.001);
     assert!(!notes(&model).contains("without the map's unit"), "{}", notes(&model));
 }
 
@@ -158,7 +159,7 @@ fn an_axis_without_a_direction_is_told() {
 fn its_relatives_are_read() {
     let rigid = "IFCRIGIDOPERATION(#10,#950,IFCLENGTHMEASURE(458870.5),IFCLENGTHMEASURE(5438230.25),7.)";
     let model = on_map(rigid, UTM);
-    is_on_map(said_by(&model, "IfcRigidOperation"), "EPSG:25832", [458870.5, 5438230.25, 7.0], 1.0);
+    is_on_map(said_by(&model, "IfcRigidOperation"), "EPSG:25832", [458870.5, 5438230.25, 7.0], 0.001);
     north(&model.anchors[0], Some(0.0));
     let set = "
 #960=IFCPROPERTYSET('0000000000000000000040',$,'ePSet_MapConversion',$,(#961,#962,#963,#964));
