@@ -13,6 +13,7 @@ mod ifc;
 mod kept;
 mod kinds;
 mod large_faces;
+mod las;
 #[cfg(unix)]
 mod links;
 mod mutations;

@@ -34,19 +34,19 @@ fn head() -> String {
     format!("ncols {COLUMNS}\nnrows {ROWS}\nxllcorner 1000\nyllcorner 2000\ncellsize 2\nNODATA_value -9999\n")
 }
 
-fn read(name: &str, bytes: impl AsRef<[u8]>, options: &ReadOptions) -> Result<Model, String> {
+pub(super) fn read(name: &str, bytes: impl AsRef<[u8]>, options: &ReadOptions) -> Result<Model, String> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
     std::fs::write(&path, bytes).unwrap();
     formats::read(&path, options).map_err(|error| error.fault.to_string())
 }
 
-fn notes(model: &Model) -> String {
+pub(super) fn notes(model: &Model) -> String {
     model.notes.iter().map(|note| format!("{note}\n")).collect()
 }
 
 /// The height of a sheet above a point of its plan.
-fn above(part: &Part, at: DVec2) -> Option<f64> {
+pub(super) fn above(part: &Part, at: DVec2) -> Option<f64> {
     part.triangles.iter().find_map(|triangle| {
         let [a, b, c] = triangle.map(|corner| part.positions[corner as usize]);
         let area = (b - a).truncate().perp_dot((c - a).truncate());
@@ -353,71 +353,6 @@ fn landxml_is_northing_easting_and_height() {
     assert!(refused("7 9 8", "7 9 5").contains("not all of them are there"));
     assert!(refused("20 10 100", "20 10").contains("northing, easting and height in point 7"));
     assert!(refused("</Pnts>", "</Points>").contains("damaged at byte"));
-}
-
-/// Points over a plane that rises to the east, with a block of building points 6 m above it.
-fn points(is_compressed: bool, classify: bool) -> Vec<u8> {
-    let mut header = las::Builder::from((1, 4));
-    header.point_format = las::point::Format::new(6).unwrap();
-    header.point_format.is_compressed = is_compressed;
-    let scale = las::Transform { scale: 0.001, offset: 0.0 };
-    header.transforms = las::Vector { x: scale, y: scale, z: scale };
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join(if is_compressed { "points.laz" } else { "points.las" });
-    let mut writer = las::Writer::from_path(&path, header.into_header().unwrap()).unwrap();
-    for at in 0..10_000 {
-        let (x, y) = (f64::from(at % 100) * 0.5, f64::from(at / 100) * 0.5);
-        let is_building = (20.0..30.0).contains(&x) && (10.0..20.0).contains(&y);
-        let z = 50.0 + 0.1 * x + if is_building { 6.0 } else { 0.0 };
-        let class = if !classify {
-            1
-        } else if is_building {
-            6
-        } else {
-            2
-        };
-        let classification = las::point::Classification::new(class).unwrap();
-        writer
-            .write_point(las::Point { x, y, z, classification, gps_time: Some(0.0), ..las::Point::default() })
-            .unwrap();
-    }
-    writer.close().unwrap();
-    std::fs::read(path).unwrap()
-}
-
-#[test]
-fn measured_points_become_ground_and_what_is_asked() {
-    for is_compressed in [false, true] {
-        let name = if is_compressed { "points.laz" } else { "points.las" };
-        let model = read(name, points(is_compressed, true), &ReadOptions::default()).unwrap();
-        assert_eq!(model.parts.len(), 1);
-        let ground = &model.parts[0];
-        for (x, y) in [(5.0, 5.0), (25.0, 15.0), (45.0, 40.0)] {
-            let found = above(ground, DVec2::new(x, y)).unwrap();
-            // below the building the heights of its neighbours
-            let slack = if x == 25.0 { 1.0 } else { 0.2 };
-            assert!((found - 50.0 - 0.1 * x).abs() < slack, "{found} at {x}");
-        }
-        let building = model.left_out.iter().find(|left| left.what.contains("building")).unwrap();
-        assert_eq!(building.count, 400);
-        assert!(building.why.contains("classes = [\"building\"]"), "{}", building.why);
-        let options = ReadOptions { point_classes: vec!["building".to_owned()], ..ReadOptions::default() };
-        let model = read(name, points(is_compressed, true), &options).unwrap();
-        assert_eq!((model.parts.len(), model.kind(1)), (2, PartKind::Building));
-        assert!(model.parts[1].aliases.iter().any(|alias| alias == "building"), "{:?}", model.parts[1].aliases);
-        let top = above(&model.parts[1], DVec2::new(25.2, 15.2)).unwrap();
-        assert!((top - 58.5).abs() < 0.2, "{top}");
-        assert!(above(&model.parts[1], DVec2::new(15.0, 15.0)).is_none());
-    }
-    let told = notes(&read("points.las", points(false, false), &ReadOptions::default()).unwrap());
-    assert!(told.contains("no points classified as ground"), "{told}");
-}
-
-#[test]
-fn cut_points_are_refused() {
-    let whole = points(false, true);
-    let told = read("points.las", &whole[..whole.len() / 2], &ReadOptions::default()).expect_err("it is cut");
-    assert!(told.contains("cut off") || told.contains("cannot be read"), "{told}");
 }
 
 /// Files in which numbers were turned over: none takes long, and none ends the program.

@@ -8,6 +8,7 @@ mod geokeys;
 mod geotiff;
 mod grid;
 mod landxml;
+mod las_sizes;
 mod map;
 mod no_data;
 mod point_cells;

@@ -12,6 +12,10 @@ const IN_A_LOWEST: f64 = 30.0;
 /// The share of the points that lie no farther from their heights than the usual deviation.
 const USUAL: f64 = 0.9;
 
+/// A narrow strip takes more cells than points; so many a point, and so many in all, are ground.
+const CELLS_A_POINT: usize = 8;
+const SPARSEST: usize = 10_000;
+
 /// Points on a raster.
 pub(super) struct PointCells {
     pub grid: HeightGrid,
@@ -42,6 +46,15 @@ impl PointCells {
         let cell = rounded_up((size.x * size.y * in_a_cell / points.len() as f64).sqrt());
         let [columns, rows] = size.to_array().map(|side| (side / cell).ceil().max(1.0) + 1.0);
         let count = HeightGrid::counted(columns as u64, rows as u64)?;
+        if count > SPARSEST.max(points.len().saturating_mul(CELLS_A_POINT)) {
+            let what = format!(
+                "has {} points, strewn over {size_x} × {size_y} of its units",
+                points.len(),
+                size_x = size.x,
+                size_y = size.y
+            );
+            return Err(message![what; "leave out the points that lie apart, and export it again"].into());
+        }
         let (columns, rows) = (columns as usize, rows as usize);
         // samples lie in the middles of cells, the first in the north-west
         let first = DVec2::new(low.x + cell / 2.0, low.y + cell * (rows as f64 - 0.5));

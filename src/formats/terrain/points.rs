@@ -1,6 +1,7 @@
 //! LAS and LAZ: measured points by their classes. Ground becomes terrain; buildings and vegetation are read on request.
 
 use super::geokeys::MapKeys;
+use super::las_sizes::{self, unusable};
 use super::map::TerrainMap;
 use super::point_cells::{CellBlocks, PointCells};
 use super::{NamedSheet, of_metres, thin};
@@ -11,16 +12,15 @@ use glam::DVec3;
 use las::{Header, PointData, Reader};
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::BufReader;
+use std::io::{BufReader, Seek as _};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 /// LAS and LAZ, also COPC: `.las`, `.laz`.
 pub struct LasPoints;
 
-/// The most points that are read.
-const MAX_POINTS: u64 = 100_000_000;
-/// Points that are read in one go.
-const AT_ONCE: u64 = 1 << 20;
+/// Bytes of points that are read in one go.
+const AT_ONCE: u64 = 1 << 24;
 
 /// Of points on the ground, and on key points of it (ASPRS LAS 1.4-R15, table 17).
 const GROUND: [u8; 2] = [2, 8];
@@ -56,53 +56,63 @@ impl Format for LasPoints {
     }
 
     fn read(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
-        let file = BufReader::new(File::open(path).map_err(ModelFault::unreadable)?);
-        let mut reader = Reader::new(file).map_err(damaged)?;
-        let keys = keys(reader.header());
-        let mut notes = Vec::new();
-        let map = TerrainMap::of(keys.crs, keys.height_unit_m, keys.map_unit_m, &mut notes);
-        let points = ClassedPoints::read(&mut reader, map.height_unit_m)?;
-        let name = stem(path);
-        notes.push(points.note());
-        let (ground, is_classified) = points.ground()?;
-        let cells = PointCells::of(&ground, is_classified)?;
-        notes.extend(cells.notes(is_classified));
-        let sheet = thin::sheet(&cells.grid, options.terrain_error_m as f32);
-        let mut sheets: Vec<NamedSheet> =
-            vec![(format!("{name}/ground"), sheet.positions, sheet.triangles, PartKind::Terrain)];
-        let mut left_out = Vec::new();
-        for (class, numbers) in CLASSES {
-            let of_class = points.of_classes(numbers);
-            let is_asked = options.point_classes.iter().any(|asked| asked == class);
-            if of_class.is_empty() {
-                if is_asked {
-                    let what = format!("has no points of the class {class}, for which `classes` asks");
-                    notes.push(message![what; "classify its points, and export it again"]);
-                }
-                continue;
-            }
-            if !is_asked {
-                let why = format!("`classes = [\"{class}\"]` under [[model]] lets this class stand there");
-                left_out.push(LeftOut { what: format!("points of class {class}"), count: of_class.len() as u64, why });
-                continue;
-            }
-            let CellBlocks { positions, triangles } = cells.blocks(&of_class);
-            sheets.push((format!("{name}/{class}"), positions, triangles, PartKind::Building));
-        }
-        let other = points.others();
-        if other > 0 {
-            let why = "neither ground nor of a class that can be asked".to_owned();
-            left_out.push(LeftOut { what: "points of other classes".into(), count: other, why });
-        }
-        let mut model = of_metres(sheets, map, notes);
-        for part in &mut model.parts {
-            // by the class alone, too
-            let class = part.name.rsplit('/').next().unwrap_or_default().to_owned();
-            part.aliases.extend([class, name.clone()]);
-        }
-        model.left_out = left_out;
-        Ok(model)
+        // others' code may still stumble over what is damaged
+        catch_unwind(AssertUnwindSafe(|| model(path, options))).unwrap_or_else(|_| {
+            Err(message!["makes the reader of LAS and LAZ fail: it is damaged"; "copy or export it again"].into())
+        })
     }
+}
+
+/// The model of a file.
+fn model(path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
+    let mut file = BufReader::new(File::open(path).map_err(ModelFault::unreadable)?);
+    las_sizes::hold(&mut file)?;
+    file.rewind().map_err(ModelFault::unreadable)?;
+    let mut reader = Reader::new(file).map_err(unusable)?;
+    let keys = keys(reader.header());
+    let mut notes = Vec::new();
+    let map = TerrainMap::of(keys.crs, keys.height_unit_m, keys.map_unit_m, &mut notes);
+    let points = ClassedPoints::read(&mut reader, map.height_unit_m)?;
+    let name = stem(path);
+    notes.push(points.note());
+    let (ground, is_classified) = points.ground()?;
+    let cells = PointCells::of(&ground, is_classified)?;
+    notes.extend(cells.notes(is_classified));
+    let sheet = thin::sheet(&cells.grid, options.terrain_error_m as f32);
+    let mut sheets: Vec<NamedSheet> =
+        vec![(format!("{name}/ground"), sheet.positions, sheet.triangles, PartKind::Terrain)];
+    let mut left_out = Vec::new();
+    for (class, numbers) in CLASSES {
+        let of_class = points.of_classes(numbers);
+        let is_asked = options.point_classes.iter().any(|asked| asked == class);
+        if of_class.is_empty() {
+            if is_asked {
+                let what = format!("has no points of the class {class}, for which `classes` asks");
+                notes.push(message![what; "classify its points, and export it again"]);
+            }
+            continue;
+        }
+        if !is_asked {
+            let why = format!("`classes = [\"{class}\"]` under [[model]] lets this class stand there");
+            left_out.push(LeftOut { what: format!("points of class {class}"), count: of_class.len() as u64, why });
+            continue;
+        }
+        let CellBlocks { positions, triangles } = cells.blocks(&of_class);
+        sheets.push((format!("{name}/{class}"), positions, triangles, PartKind::Building));
+    }
+    let other = points.others();
+    if other > 0 {
+        let why = "neither ground nor of a class that can be asked".to_owned();
+        left_out.push(LeftOut { what: "points of other classes".into(), count: other, why });
+    }
+    let mut model = of_metres(sheets, map, notes);
+    for part in &mut model.parts {
+        // by the class alone, too
+        let class = part.name.rsplit('/').next().unwrap_or_default().to_owned();
+        part.aliases.extend([class, name.clone()]);
+    }
+    model.left_out = left_out;
+    Ok(model)
 }
 
 /// Points by their classes, in the file's coordinates, heights in metres.
@@ -113,15 +123,12 @@ struct ClassedPoints {
 impl ClassedPoints {
     fn read(reader: &mut Reader, unit_m: f64) -> Result<ClassedPoints, ModelFault> {
         let count = reader.header().number_of_points();
-        if count > MAX_POINTS {
-            let what = format!("has {count} points, and a model may have {MAX_POINTS}");
-            return Err(message![what; "cut it to the surroundings of the place, or thin its points"].into());
-        }
         let mut by_class = BTreeMap::<u8, Vec<DVec3>>::new();
         let mut read = 0;
-        // what a header claims is not believed: memory is taken as points come
+        // memory is taken as points come
+        let at_once = AT_ONCE / u64::from(reader.header().point_format().len()).max(1);
         while read < count {
-            let points: PointData = reader.read_points(AT_ONCE.min(count - read)).map_err(damaged)?;
+            let points: PointData = reader.read_points(at_once.min(count - read)).map_err(unusable)?;
             if points.is_empty() {
                 let what = format!("is cut off: it has {read} of {count} points");
                 return Err(message![what; "copy or export it again"].into());
@@ -192,8 +199,4 @@ fn vertical_unit_m(wkt: &str) -> Option<f64> {
     let unit = &vertical[vertical.find("UNIT[")?..];
     let number = unit.split(',').nth(1)?.trim_end_matches(']').trim();
     number.parse().ok().filter(|unit| (1e-3..1e4).contains(unit))
-}
-
-fn damaged(error: las::Error) -> ModelFault {
-    message![format!("cannot be read as LAS or LAZ ({error})"); "copy or export it again"].into()
 }

@@ -1,0 +1,121 @@
+//! LAS and LAZ: measured points by their classes, and files that say more than they hold.
+
+use super::terrain::{above, notes, read};
+use glam::DVec2;
+use gnomon::formats::{PartKind, ReadOptions};
+
+/// Points over a plane that rises to the east, with a block of building points 6 m above it.
+fn points(is_compressed: bool, classify: bool) -> Vec<u8> {
+    let mut header = las::Builder::from((1, 4));
+    header.point_format = las::point::Format::new(6).unwrap();
+    header.point_format.is_compressed = is_compressed;
+    let scale = las::Transform { scale: 0.001, offset: 0.0 };
+    header.transforms = las::Vector { x: scale, y: scale, z: scale };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(if is_compressed { "points.laz" } else { "points.las" });
+    let mut writer = las::Writer::from_path(&path, header.into_header().unwrap()).unwrap();
+    for at in 0..10_000 {
+        let (x, y) = (f64::from(at % 100) * 0.5, f64::from(at / 100) * 0.5);
+        let is_building = (20.0..30.0).contains(&x) && (10.0..20.0).contains(&y);
+        let z = 50.0 + 0.1 * x + if is_building { 6.0 } else { 0.0 };
+        let class = if !classify {
+            1
+        } else if is_building {
+            6
+        } else {
+            2
+        };
+        let classification = las::point::Classification::new(class).unwrap();
+        writer
+            .write_point(las::Point { x, y, z, classification, gps_time: Some(0.0), ..las::Point::default() })
+            .unwrap();
+    }
+    writer.close().unwrap();
+    std::fs::read(path).unwrap()
+}
+
+#[test]
+fn measured_points_become_ground_and_what_is_asked() {
+    for is_compressed in [false, true] {
+        let name = if is_compressed { "points.laz" } else { "points.las" };
+        let model = read(name, points(is_compressed, true), &ReadOptions::default()).unwrap();
+        assert_eq!(model.parts.len(), 1);
+        let ground = &model.parts[0];
+        for (x, y) in [(5.0, 5.0), (25.0, 15.0), (45.0, 40.0)] {
+            let found = above(ground, DVec2::new(x, y)).unwrap();
+            // below the building the heights of its neighbours
+            let slack = if x == 25.0 { 1.0 } else { 0.2 };
+            assert!((found - 50.0 - 0.1 * x).abs() < slack, "{found} at {x}");
+        }
+        let building = model.left_out.iter().find(|left| left.what.contains("building")).unwrap();
+        assert_eq!(building.count, 400);
+        assert!(building.why.contains("classes = [\"building\"]"), "{}", building.why);
+        let options = ReadOptions { point_classes: vec!["building".to_owned()], ..ReadOptions::default() };
+        let model = read(name, points(is_compressed, true), &options).unwrap();
+        assert_eq!((model.parts.len(), model.kind(1)), (2, PartKind::Building));
+        assert!(model.parts[1].aliases.iter().any(|alias| alias == "building"), "{:?}", model.parts[1].aliases);
+        let top = above(&model.parts[1], DVec2::new(25.2, 15.2)).unwrap();
+        assert!((top - 58.5).abs() < 0.2, "{top}");
+        assert!(above(&model.parts[1], DVec2::new(15.0, 15.0)).is_none());
+    }
+    let told = notes(&read("points.las", points(false, false), &ReadOptions::default()).unwrap());
+    assert!(told.contains("no points classified as ground"), "{told}");
+}
+
+#[test]
+fn cut_points_are_refused() {
+    let whole = points(false, true);
+    let told = read("points.las", &whole[..whole.len() / 2], &ReadOptions::default()).expect_err("it is cut");
+    assert!(told.contains("cut off") || told.contains("cannot be read"), "{told}");
+}
+
+/// The numbers of a header by which a decoder takes memory.
+const POINTS_AT: usize = 96;
+const RECORD_LENGTH: usize = 105;
+const EXTENDED_AT: usize = 235;
+const POINTS: usize = 247;
+
+fn word(bytes: &[u8], at: usize) -> u32 {
+    u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap())
+}
+
+/// Kilobytes that speak of gigabytes: each is refused before its decoder believes it.
+#[test]
+fn sizes_beyond_the_file_are_refused() {
+    let (plain, packed) = (points(false, true), points(true, true));
+    let start = word(&packed, POINTS_AT) as usize;
+    let table = word(&packed, start) as usize;
+    // behind the place of the table, the first point and the number of points
+    let layers = start + 8 + 30 + 4;
+    let record = packed.windows(14).position(|bytes| bytes == b"laszip encoded").expect("how it is packed") + 52;
+    let vast = u32::MAX.to_le_bytes();
+    let many = 90_000_000_u64.to_le_bytes();
+    let cases: [(&[u8], usize, &[u8], &str); 14] = [
+        (&packed, layers, &vast, "a chunk that is longer than the file"),
+        (&packed, layers + 32, &vast, "a chunk that is longer than the file"),
+        (&packed, table + 4, &vast, "4294967295 chunks of points"),
+        (&packed, start, &vast, "names what lies beyond its end"),
+        (&packed, start, &[0; 8], "cut off"),
+        (&packed, POINTS, &many, "it says that it has 90000000 points"),
+        (&packed, POINTS, &[255; 8], "a model may have 100000000"),
+        (&packed, RECORD_LENGTH, &[255, 255], "points of 65535 bytes each"),
+        (&packed, RECORD_LENGTH, &[31, 0], "how its points are packed"),
+        // no items, and a way of packing that these items do not have
+        (&packed, record + 32, &[0, 0], "how its points are packed"),
+        (&packed, record, &[1, 0], "how its points are packed"),
+        (&plain, POINTS, &many, "it has 10000 of 90000000 points"),
+        (&plain, EXTENDED_AT, &[80, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0], "extended records end beyond its end"),
+        (&plain, POINTS_AT, &vast, "its points begin beyond its end"),
+    ];
+    for (whole, at, new, words) in cases {
+        let mut bytes = whole.to_vec();
+        bytes[at..at + new.len()].copy_from_slice(new);
+        let told = read("points.laz", &bytes, &ReadOptions::default()).expect_err(words);
+        assert!(told.contains(words), "{told}");
+    }
+    // a count that a shorter table cannot hold
+    let mut fewer = packed.clone();
+    fewer[record + 12..record + 16].copy_from_slice(&5000_u32.to_le_bytes());
+    let told = read("points.laz", &fewer, &ReadOptions::default()).expect_err("half of them are in no chunk");
+    assert!(told.contains("5000 of its 10000 points are in none of its chunks"), "{told}");
+}
