@@ -54,3 +54,7 @@ mod typed;
 mod verify;
 mod volumes;
 mod year;
+
+/// So that tests can say how much memory a reader takes.
+#[global_allocator]
+static ALLOCATOR: shared::memory::CountingAllocator = shared::memory::CountingAllocator;

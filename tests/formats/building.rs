@@ -1,6 +1,8 @@
 //! One building, which each format's test writes in its own units and axes: an L of 10 × 20 × 30 m off the centre, so that no
 //! mirrored or turned reading of it is the same. A format's reading is held against the faces that were written.
 
+use super::mutations::read_within_memory;
+use crate::shared::memory::CountedThread;
 use glam::DVec3;
 use gnomon::formats::{self, LeftOut, Model, ReadOptions, Up};
 use gnomon::site::Placement;
@@ -140,7 +142,7 @@ pub(crate) fn names(model: &Model) -> Vec<&str> {
     model.parts.iter().map(|part| part.name.as_str()).collect()
 }
 
-/// A thousand changes of a small file: none may end in a panic, or take longer than a second.
+/// A thousand changes of a small file: none may end in a panic, take longer than a second, or more memory than it may.
 pub(crate) fn survive_mutations(name: &str, whole: &[u8]) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
@@ -152,6 +154,7 @@ pub(crate) fn survive_mutations(name: &str, whole: &[u8]) {
         (state % below.max(1) as u64) as usize
     };
     let (mut read, mut refused) = (0, 0);
+    let thread = CountedThread::new();
     for _ in 0..1000 {
         let mut bytes = whole.to_vec();
         for _ in 0..1 + random(4) {
@@ -173,7 +176,7 @@ pub(crate) fn survive_mutations(name: &str, whole: &[u8]) {
         }
         std::fs::write(&path, &bytes).unwrap();
         let started = Instant::now();
-        match formats::read(&path, &ReadOptions::default()) {
+        match read_within_memory(&thread, &path, &ReadOptions::default()) {
             Ok(model) => {
                 read += 1;
                 assert!(model.parts.iter().flat_map(|part| &part.positions).all(|corner| corner.is_finite()));

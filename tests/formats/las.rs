@@ -1,11 +1,22 @@
 //! LAS and LAZ: measured points by their classes, and files that say more than they hold.
 
+use super::mutations::survives;
 use super::terrain::{above, notes, read};
+use crate::shared::memory::CountedThread;
 use glam::DVec2;
 use gnomon::formats::{PartKind, ReadOptions};
 
 /// Points over a plane that rises to the east, with a block of building points 6 m above it.
 fn points(is_compressed: bool, classify: bool) -> Vec<u8> {
+    written(is_compressed, classify, 10_000)
+}
+
+/// The first of them, which are so few that most of the file is its heads.
+fn few_points(is_compressed: bool) -> Vec<u8> {
+    written(is_compressed, true, 250)
+}
+
+fn written(is_compressed: bool, classify: bool, count: u32) -> Vec<u8> {
     let mut header = las::Builder::from((1, 4));
     header.point_format = las::point::Format::new(6).unwrap();
     header.point_format.is_compressed = is_compressed;
@@ -14,7 +25,7 @@ fn points(is_compressed: bool, classify: bool) -> Vec<u8> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(if is_compressed { "points.laz" } else { "points.las" });
     let mut writer = las::Writer::from_path(&path, header.into_header().unwrap()).unwrap();
-    for at in 0..10_000 {
+    for at in 0..count {
         let (x, y) = (f64::from(at % 100) * 0.5, f64::from(at / 100) * 0.5);
         let is_building = (20.0..30.0).contains(&x) && (10.0..20.0).contains(&y);
         let z = 50.0 + 0.1 * x + if is_building { 6.0 } else { 0.0 };
@@ -107,15 +118,25 @@ fn sizes_beyond_the_file_are_refused() {
         (&plain, EXTENDED_AT, &[80, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0], "extended records end beyond its end"),
         (&plain, POINTS_AT, &vast, "its points begin beyond its end"),
     ];
+    let thread = CountedThread::new();
     for (whole, at, new, words) in cases {
         let mut bytes = whole.to_vec();
         bytes[at..at + new.len()].copy_from_slice(new);
-        let told = read("points.laz", &bytes, &ReadOptions::default()).expect_err(words);
+        let (told, most) = thread.run(|| read("points.laz", &bytes, &ReadOptions::default()).expect_err(words));
         assert!(told.contains(words), "{told}");
+        assert!(most < 64 << 20, "{words}: {most} bytes");
     }
     // a count that a shorter table cannot hold
     let mut fewer = packed.clone();
     fewer[record + 12..record + 16].copy_from_slice(&5000_u32.to_le_bytes());
     let told = read("points.laz", &fewer, &ReadOptions::default()).expect_err("half of them are in no chunk");
     assert!(told.contains("5000 of its 10000 points are in none of its chunks"), "{told}");
+}
+
+#[test]
+fn mutations_are_survived() {
+    for (ending, bytes) in [("las", few_points(false)), ("laz", few_points(true))] {
+        let [read, errors] = survives(ending, &bytes);
+        assert!(read > 10 && errors > 2, ".{ending}: {read} were read, and there were {errors} different errors");
+    }
 }

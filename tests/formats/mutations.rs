@@ -1,17 +1,19 @@
 //! A thousand mutations of a small file of each format: no reader panics, hangs or takes all memory.
 //!
-//! A format's own test calls [`survives`] with the smallest file that has all that its reader knows.
+//! A format's own test calls [`survives`] with the smallest file that has all that its reader knows, or mutates files of
+//! its own, which it reads by [`read_within_memory`].
 
 use super::apart::apart;
 use crate::model::Model;
-use gnomon::formats::{self, FORMATS, ModelReader, ReadLimits, ReadOptions};
+use crate::shared::memory::CountedThread;
+use gnomon::formats::{self, FORMATS, ModelError, ModelReader, ReadLimits, ReadOptions};
 use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
 const MUTATIONS: u64 = 1000;
-/// Each so many is also read in a process of its own, whose memory is watched.
+/// Each so many is also read in a process of its own, which is given up where it takes too much.
 const WATCHED: u64 = 40;
 const MOST_TIME: Duration = Duration::from_secs(10);
 const MOST_MEMORY: u64 = 1 << 30;
@@ -78,38 +80,55 @@ fn swap_number(bytes: &mut Vec<u8>, at: usize, number: &str) {
     bytes.splice(first..first + length, number.bytes());
 }
 
+/// Reads a file, and holds all memory that it takes to the limit.
+pub(crate) fn read_within_memory(
+    thread: &CountedThread,
+    file: &Path,
+    options: &ReadOptions,
+) -> Result<formats::Model, ModelError> {
+    let (read, most) = thread.run(|| formats::read(file, options));
+    assert!(most < MOST_MEMORY, "{} takes {} MiB to read", file.display(), most >> 20);
+    read
+}
+
+/// Reads a file in a process of its own, whose memory and time are watched.
+pub(crate) fn read_watched(file: &Path) {
+    let limits = ReadLimits { time: MOST_TIME, memory: Some(MOST_MEMORY) };
+    let watched = ModelReader { limits, ..apart() };
+    if let Err(error) = watched.read_apart(file, &ReadOptions::default()) {
+        let told = error.to_string();
+        let is_endured = ["takes longer", "takes more memory", "broke off"].iter().all(|end| !told.contains(end));
+        assert!(is_endured, "{told}");
+    }
+}
+
 /// Holds a reader to all mutations of a file; how many were read as models, and how many errors there were.
 pub(super) fn survives(ending: &str, bytes: &[u8]) -> [usize; 2] {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join(format!("model.{ending}"));
     std::fs::write(&file, bytes).unwrap();
     formats::read(&file, &ReadOptions::default()).unwrap_or_else(|error| panic!("the file itself: {error}"));
-    let limits = ReadLimits { time: MOST_TIME, memory: Some(MOST_MEMORY) };
-    let watched = ModelReader { limits, ..apart() };
     let (mut read, mut errors) = (0, BTreeSet::new());
+    let thread = CountedThread::new();
     for seed in 0..MUTATIONS {
         std::fs::write(&file, mutated(bytes, seed)).unwrap();
-        match outcome(&file, seed) {
+        match outcome(&thread, &file, seed) {
             None => read += 1,
             Some(error) => drop(errors.insert(error)),
         }
-        if seed % WATCHED == 0
-            && let Err(error) = watched.read_apart(&file, &ReadOptions::default())
-        {
-            let told = error.to_string();
-            let is_endured = ["takes longer", "takes more memory", "broke off"].iter().all(|end| !told.contains(end));
-            assert!(is_endured, "mutation {seed} of .{ending}: {told}");
+        if seed % WATCHED == 0 {
+            read_watched(&file);
         }
     }
     [read, errors.len()]
 }
 
 /// What is wrong with a file, if anything; found in time, and without a panic.
-fn outcome(file: &Path, seed: u64) -> Option<String> {
+fn outcome(thread: &CountedThread, file: &Path, seed: u64) -> Option<String> {
     let begun = Instant::now();
-    let outcome = catch_unwind(AssertUnwindSafe(|| formats::read(file, &ReadOptions::default())));
+    let outcome = catch_unwind(AssertUnwindSafe(|| read_within_memory(thread, file, &ReadOptions::default())));
     let name = file.display();
-    let outcome = outcome.unwrap_or_else(|_| panic!("mutation {seed} of {name}: its reader panics"));
+    let outcome = outcome.unwrap_or_else(|_| panic!("mutation {seed} of {name}: its reader panics, or takes too much"));
     assert!(begun.elapsed() < MOST_TIME, "mutation {seed} of {name} takes {:?}", begun.elapsed());
     let told = outcome.map(|_| ()).err()?.to_string();
     // no place that is another in each run

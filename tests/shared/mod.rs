@@ -4,6 +4,7 @@ pub(crate) mod dense;
 pub(crate) mod dome;
 pub(crate) mod drawing;
 pub(crate) mod far_wrong;
+pub(crate) mod memory;
 pub(crate) mod program;
 pub(crate) mod scenes;
 

@@ -22,6 +22,9 @@ const TRANSFORMATION: Tag = Tag::Unknown(34264);
 const KEY_DIRECTORY: Tag = Tag::Unknown(34735);
 const KEY_TEXTS: Tag = Tag::Unknown(34737);
 
+/// A byte of a file cannot become more, by any of the compressions that are read: DEFLATE makes 1032 of it, LZW about 1400.
+const MAX_OF_A_BYTE: u64 = 2048;
+
 /// GeoTIFF elevation, `.tif`.
 pub struct GeoTiff;
 
@@ -51,14 +54,19 @@ impl Format for GeoTiff {
     }
 
     fn read(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
-        let file = BufReader::new(File::open(path).map_err(ModelFault::unreadable)?);
+        let file = File::open(path).map_err(ModelFault::unreadable)?;
+        let most = file.metadata().map_err(ModelFault::unreadable)?.len().saturating_mul(MAX_OF_A_BYTE);
         let mut limits = Limits::default();
-        limits.decoding_buffer_size = 1 << 30;
-        limits.intermediate_buffer_size = 1 << 30;
+        limits.decoding_buffer_size = most.clamp(1 << 20, 1 << 30) as usize;
+        limits.intermediate_buffer_size = limits.decoding_buffer_size;
         limits.ifd_value_size = 1 << 26;
-        let mut tiff = Decoder::new(file).map_err(damaged)?.with_limits(limits);
+        let mut tiff = Decoder::new(BufReader::new(file)).map_err(damaged)?.with_limits(limits);
         let (columns, rows) = tiff.dimensions().map_err(damaged)?;
         let count = HeightGrid::counted(columns.into(), rows.into())?;
+        if count as u64 > most {
+            let what = format!("is cut off: it says that it has {columns} × {rows} heights, and is too short for them");
+            return Err(message![what; "copy or export it again"].into());
+        }
         let keys = keys(&mut tiff);
         let (first, steps) = placed(&mut tiff, &keys, path)?;
         let mut notes = Vec::new();

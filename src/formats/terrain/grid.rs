@@ -6,6 +6,8 @@ use glam::{DVec2, DVec3};
 
 /// The most samples that a raster may have: 10,000 to a side.
 const MAX_SAMPLES: u64 = 100_000_000;
+/// Cells along the side of a square: in such squares a raster is thinned, which takes memory for all that they cover.
+pub(super) const SQUARE: usize = 256;
 
 /// Heights on a raster, row after row.
 pub(super) struct HeightGrid {
@@ -22,10 +24,14 @@ pub(super) struct HeightGrid {
 impl HeightGrid {
     /// How many samples a raster has, where that is not too many and not too few.
     pub(super) fn counted(columns: u64, rows: u64) -> Result<usize, ModelFault> {
-        match columns.checked_mul(rows) {
-            Some(count) if count <= MAX_SAMPLES => usize::try_from(count).map_err(|_| too_many(columns, rows)),
-            _ => Err(too_many(columns, rows)),
+        let count = columns.checked_mul(rows).filter(|count| *count <= MAX_SAMPLES);
+        let count = count.and_then(|count| usize::try_from(count).ok()).ok_or_else(|| too_many(columns, rows))?;
+        let covered = [columns, rows].map(|side| side.next_multiple_of(SQUARE as u64));
+        if covered[0].saturating_mul(covered[1]) > 2 * MAX_SAMPLES {
+            let what = format!("has {columns} × {rows} heights, which is a strip and no terrain");
+            return Err(message![what; "cut it to the surroundings of the place in a GIS"].into());
         }
+        Ok(count)
     }
 
     /// The height at a sample; NaN where there is none, and beyond the raster.

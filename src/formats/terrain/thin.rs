@@ -7,15 +7,13 @@
 //! form of the method looks only at the middle of the longest side; here each triangle is tested against all samples in
 //! it, so the given error is a bound.
 
-use super::grid::HeightGrid;
+use super::grid::{HeightGrid, SQUARE};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How often the side of a square is halved until it is a cell.
-const HALVINGS: usize = 8;
-/// Cells along the side of a square.
-const SQUARE: usize = 1 << HALVINGS;
+const HALVINGS: usize = SQUARE.ilog2() as usize;
 /// How often a square's triangles can be halved.
 const DEPTH: usize = 2 * HALVINGS;
 /// A sample that is no corner.

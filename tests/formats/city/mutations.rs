@@ -2,6 +2,8 @@
 
 use super::block::AT;
 use super::files::b3dm;
+use crate::formats::mutations::read_within_memory;
+use crate::shared::memory::CountedThread;
 use gnomon::formats::{ReadOptions, read};
 use std::time::{Duration, Instant};
 
@@ -50,10 +52,11 @@ fn survives(files: &[(&str, Vec<u8>)]) {
     let options = ReadOptions { default_height_m: Some(5.0), ..ReadOptions::default() };
     read(&path, &options).unwrap_or_else(|error| panic!("undamaged it is read: {error}"));
     let mut refused = 0;
+    let thread = CountedThread::new();
     for seed in 0..1000 {
         std::fs::write(&path, damaged(&files[0].1, seed)).expect("written");
         let start = Instant::now();
-        match read(&path, &options) {
+        match read_within_memory(&thread, &path, &options) {
             Ok(model) => {
                 let is_whole = model.parts.iter().all(|part| {
                     let corners = part.positions.len() as u32;
@@ -98,9 +101,10 @@ fn shapefiles_and_their_tables() {
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::write(folder.path().join("houses.shp"), &shape.1).expect("written");
     let options = ReadOptions { default_height_m: Some(5.0), ..ReadOptions::default() };
+    let thread = CountedThread::new();
     for seed in 0..1000 {
         std::fs::write(folder.path().join("houses.dbf"), damaged(&table.1, seed)).expect("written");
-        let read = read(&folder.path().join("houses.shp"), &options);
+        let read = read_within_memory(&thread, &folder.path().join("houses.shp"), &options);
         assert!(read.is_ok(), "the table says too little, and the outline stands: {seed}");
     }
 }

@@ -2,6 +2,7 @@
 
 use super::house::house;
 use super::{HEAD, read_as};
+use crate::formats::mutations::read_watched;
 use std::time::{Duration, Instant};
 
 /// A sequence of numbers that looks like chance, and is always the same.
@@ -60,6 +61,13 @@ fn a_thousand_mutations_neither_panic_nor_hang() {
             assert!(model.see_through.iter().flat_map(|it| &it.parts).all(|&part| part < model.parts.len()));
         }
         assert!(started.elapsed() < Duration::from_secs(10), "round {round} took {:?}", started.elapsed());
+        // its reader makes shapes on threads of its own, so that a process is watched
+        if round % 20 == 0 {
+            let folder = tempfile::tempdir().expect("a folder");
+            let path = folder.path().join("house.ifc");
+            std::fs::write(&path, &bytes).expect("written");
+            read_watched(&path);
+        }
     }
     assert!(read > 300, "only {read} could be read, so the mutations try little");
 }
