@@ -19,6 +19,7 @@ mod elevation;
 mod exact;
 mod export;
 mod far;
+mod flush;
 mod folders;
 mod formats;
 mod geometry;

@@ -14,7 +14,7 @@ use crate::gpu::layout::{self, PictureUniforms};
 use crate::gpu::targets::{SHARE, Stages, whole};
 use crate::gpu::{Gpu, shaders};
 use crate::look::{LOOK, Look};
-use crate::shadow::surface::{PLANES_WIDTH, UNIFORM, bind_group_layout, texture_binding};
+use crate::shadow::bindings::{PLANES_WIDTH, UNIFORM, bind_group_layout, texture_binding};
 use crate::shadow::{DrawnMask, GpuSurface, Scene, ShadowError};
 use crate::view::{Mask, View};
 use glam::DVec3;
@@ -88,7 +88,8 @@ impl Picture {
     /// # Errors
     /// [`ShadowError`], where the view does not fit the adapter.
     pub fn new(gpu: Arc<Gpu>, scene: &Scene, view: View) -> Result<Picture, ShadowError> {
-        let surface = GpuSurface::draw(Arc::clone(&gpu), scene, view)?;
+        let mut surface = GpuSurface::draw(Arc::clone(&gpu), scene, view)?;
+        surface.show_flush()?;
         let plain = texture_binding(TextureSampleType::Float { filterable: false });
         let numbers = texture_binding(TextureSampleType::Uint);
         let pages = BindingType::Texture {
@@ -138,7 +139,10 @@ impl Picture {
     pub fn look_at(&mut self, scene: &Scene, view: View, faces: Option<&[u32]>) -> Result<(), ShadowError> {
         match faces {
             Some(faces) => self.surface.see(scene, view, faces),
-            None => self.surface.look_at(scene, view),
+            None => {
+                self.surface.look_at(scene, view)?;
+                self.surface.show_flush()
+            }
         }
     }
 

@@ -4,7 +4,7 @@ use super::texels::{COLOURS, write};
 use crate::gpu::{Gpu, GpuError};
 use crate::mesh::patches::Patches;
 use crate::shadow::ShadowError;
-use crate::shadow::surface::PLANES_WIDTH;
+use crate::shadow::bindings::PLANES_WIDTH;
 use glam::DVec3;
 use wgpu::*;
 

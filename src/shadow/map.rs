@@ -8,8 +8,8 @@
 //! The slope-scaled bias (Akenine-Möller, Haines and Hoffman, *Real-Time Rendering*, 3rd edition, 2008, section 9.1) is
 //! left with curved surfaces alone, and half a texel of it is enough for all filters.
 
+use super::bindings::{UNIFORM, bind_group_layout, texture_binding};
 use super::light_view::{Extents, Smoothies};
-use super::surface::{UNIFORM, bind_group_layout, texture_binding};
 use super::{GpuSurface, Scene, ShadowError};
 use crate::gpu::targets::{DEPTH, Stages, whole};
 use crate::gpu::{Gpu, layout, shaders};

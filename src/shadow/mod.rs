@@ -4,8 +4,11 @@
 //! name where it draws on the GPU.
 
 mod batch;
+pub(crate) mod bindings;
 mod counting;
 mod flat;
+mod flush;
+mod flush_layer;
 mod frame;
 pub mod hybrid;
 mod light_view;
@@ -27,7 +30,7 @@ pub mod soft_picture;
 #[doc(hidden)]
 pub mod soft_texture;
 pub mod stencil;
-pub(crate) mod surface;
+mod surface;
 #[doc(hidden)]
 pub mod walls;
 
@@ -38,6 +41,8 @@ use crate::view::{Bits, CellWord, FragmentCounts, Mask, Surface, Tile, View};
 use glam::{DVec3, DVec4};
 use std::sync::Arc;
 
+#[doc(hidden)]
+pub use flush::FlushFaces;
 #[doc(hidden)]
 pub use plan_surface::{PlanSurface, plan_surface};
 #[doc(hidden)]

@@ -1,8 +1,10 @@
-//! What each cell of a plan sees first, on the processor: every face is scan-converted, and the highest one stays.
+//! What each cell of a plan sees first, on the processor: every face is scan-converted, and the highest one stays. Faces
+//! that are flush with the ground are shown by their own rule (`flush.rs`).
 //!
 //! The result is that of one ray per cell straight down, in double precision like that, but many times faster, since
 //! each face is visited once and not each cell. `RayCast::surface` is its slow plain twin.
 
+use super::flush::flush_faces;
 use super::ray_cast::TIE;
 use crate::mesh::{Mesh, scan};
 use crate::view::{Grid, Surface, SurfaceRows, Tile};
@@ -13,34 +15,25 @@ use std::ops::Range;
 /// Rows of a band, which one task draws.
 const BAND: usize = 32;
 
-/// The highest face of some receivers below each cell's centre, or the ground, if that is higher.
+/// The highest face of some receivers below each cell's centre, or the ground, if that is higher; what is flush with the ground is seen before it.
 pub fn plan_surface(receivers: &Mesh, ground: f64, grid: &Grid) -> Surface {
-    let (face, height_m) = highest(receivers, ground, (*grid).into(), |height| height as f32);
-    Surface { width: grid.width, height: grid.height, face, height_m }
+    tile_surface(receivers, ground, (*grid).into())
 }
 
-/// Per cell of a tile the face and its height in the world, metres, as it is to be kept.
-pub(super) fn highest<T: Copy + Default + Send>(
-    receivers: &Mesh,
-    ground: f64,
-    tile: Tile,
-    keep: impl Fn(f64) -> T + Sync,
-) -> (Vec<u32>, Vec<T>) {
-    let [width, height] = tile.size.map(|size| size as usize);
-    let plan = PlanSurface::of_tile(receivers, ground, tile);
-    let top = tile.first[1] as usize;
-    let mut face = vec![Surface::GROUND; width * height];
-    let mut kept = vec![T::default(); width * height];
-    let rows = face.par_chunks_mut(BAND * width).zip(kept.par_chunks_mut(BAND * width));
-    rows.enumerate().for_each_init(Vec::new, |heights, (band, (face, kept))| {
-        let first = top + band * BAND;
-        plan.highest(first..first + face.len() / width, face, heights);
-        kept.iter_mut().zip(heights).for_each(|(kept, height)| *kept = keep(*height));
-    });
-    (face, kept)
+/// The same of a tile.
+pub(super) fn tile_surface(receivers: &Mesh, ground: f64, tile: Tile) -> Surface {
+    let plan = PlanSurface::of_tile(receivers, ground, tile, flush_faces(receivers, ground));
+    let (face, height_m) = plan.all(|height| height as f32);
+    let [width, height] = tile.size;
+    Surface { width, height, face, height_m }
 }
 
-/// The same, some rows at a time.
+/// Per cell of a tile the face that is judged, which is the highest, and its height in the world, metres.
+pub(super) fn highest(receivers: &Mesh, ground: f64, tile: Tile) -> (Vec<u32>, Vec<f64>) {
+    PlanSurface::of_tile(receivers, ground, tile, Vec::new()).all(|height| height)
+}
+
+/// What a plan's cells see, some rows at a time.
 pub struct PlanSurface<'a> {
     receivers: &'a Mesh,
     ground: f64,
@@ -48,37 +41,75 @@ pub struct PlanSurface<'a> {
     corners: Corners,
     /// Which faces reach into which band; a list for each run of faces, so that their order stays.
     bands: Vec<Vec<Vec<u32>>>,
+    /// The faces that are shown before the ground, in their order.
+    flush: Vec<u32>,
 }
 
 impl<'a> PlanSurface<'a> {
     /// Sorts the receivers' faces by the rows that they reach.
     pub fn new(receivers: &'a Mesh, ground: f64, grid: &Grid) -> PlanSurface<'a> {
-        Self::of_tile(receivers, ground, (*grid).into())
+        Self::of_tile(receivers, ground, (*grid).into(), flush_faces(receivers, ground))
     }
 
-    fn of_tile(receivers: &'a Mesh, ground: f64, tile: Tile) -> PlanSurface<'a> {
+    fn of_tile(receivers: &'a Mesh, ground: f64, tile: Tile, flush: Vec<u32>) -> PlanSurface<'a> {
         let corners = Corners::new(receivers, &tile.plan);
         let [first, count] = [tile.first[1], tile.size[1]].map(|row| row as usize);
         let bands = corners.by_band(receivers, first..first + count);
-        PlanSurface { receivers, ground, tile, corners, bands }
+        PlanSurface { receivers, ground, tile, corners, bands, flush }
+    }
+
+    /// Per cell of the tile the face, and the height as it is to be kept.
+    fn all<T: Copy + Default + Send>(&self, keep: impl Fn(f64) -> T + Sync) -> (Vec<u32>, Vec<T>) {
+        let [width, height] = self.tile.size.map(|size| size as usize);
+        let top = self.tile.first[1] as usize;
+        let mut face = vec![Surface::GROUND; width * height];
+        let mut kept = vec![T::default(); width * height];
+        let rows = face.par_chunks_mut(BAND * width).zip(kept.par_chunks_mut(BAND * width));
+        rows.enumerate().for_each_init(Vec::new, |heights, (band, (face, kept))| {
+            let first = top + band * BAND;
+            self.seen(first..first + face.len() / width, face, heights);
+            kept.iter_mut().zip(heights).for_each(|(kept, height)| *kept = keep(*height));
+        });
+        (face, kept)
     }
 
     /// Per cell of some of the plan's rows the face that it sees, where `face` is the ground's so far, and how high that is.
-    fn highest(&self, rows: Range<usize>, face: &mut [u32], heights: &mut Vec<f64>) {
-        let [first, width] = [self.tile.first[0], self.tile.size[0]].map(|column| column as usize);
+    fn seen(&self, rows: Range<usize>, face: &mut [u32], heights: &mut Vec<f64>) {
         heights.clear();
         heights.resize(face.len(), self.ground);
+        self.scan(
+            rows.clone(),
+            |_| true,
+            |at, cell, z| {
+                // a receiver in the ground hides it; of two at one height the first is seen
+                if z > heights[cell] || (z == heights[cell] && face[cell] == Surface::GROUND) {
+                    heights[cell] = z;
+                    face[cell] = at;
+                }
+            },
+        );
+        if self.flush.is_empty() {
+            return;
+        }
+        let is_flush = |face: u32| self.flush.binary_search(&face).is_ok();
+        self.scan(rows, is_flush, |at, cell, _| {
+            // the ground's number is higher than any face's
+            if at < face[cell] && (face[cell] == Surface::GROUND || is_flush(face[cell])) {
+                face[cell] = at;
+            }
+        });
+    }
+
+    /// Calls with each of some faces for each of some rows' cells that it covers: the face, the cell, and the face's height
+    /// in the world there, metres.
+    fn scan(&self, rows: Range<usize>, scans: impl Fn(u32) -> bool, mut call: impl FnMut(u32, usize, f64)) {
+        let [first, width] = [self.tile.first[0], self.tile.size[0]].map(|column| column as usize);
         for band in rows.start / BAND..rows.end.div_ceil(BAND) {
             let of_band = rows.start.max(band * BAND)..rows.end.min((band + 1) * BAND);
-            for &at in self.bands.iter().flat_map(|bands| &bands[band]) {
+            for &at in self.bands.iter().flat_map(|bands| &bands[band]).filter(|at| scans(**at)) {
                 let triangle = self.corners.of(self.receivers.faces[at as usize]);
                 triangle.scan(first..first + width, of_band.clone(), |row, column, z| {
-                    let cell = (row - rows.start) * width + column - first;
-                    // a receiver in the ground hides it; of two at one height the first is seen
-                    if z > heights[cell] || (z == heights[cell] && face[cell] == Surface::GROUND) {
-                        heights[cell] = z;
-                        face[cell] = at;
-                    }
+                    call(at, (row - rows.start) * width + column - first, z);
                 });
             }
         }
@@ -95,7 +126,7 @@ impl SurfaceRows for PlanSurface<'_> {
         let mut face = vec![Surface::GROUND; width as usize * rows.len()];
         let mut heights = Vec::new();
         let height = rows.len() as u32;
-        self.highest(rows, &mut face, &mut heights);
+        self.seen(rows, &mut face, &mut heights);
         Surface { width, height, face, height_m: heights.iter().map(|height| *height as f32).collect() }
     }
 }

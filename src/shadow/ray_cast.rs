@@ -7,6 +7,7 @@
 //! out: boxes are padded beyond all rounding, and a triangle is only left out where no rounding could make it a hit. Cells of
 //! eight rows and columns are asked at once, as a beam of parallel rays.
 
+use super::flush::FlushFaces;
 use super::{DrawnMask, JUDGED_ABOVE_M, Scene, ShadowError, SingleCells, Technique, seen_normal};
 use crate::mesh::Mesh;
 use crate::sun::disc;
@@ -27,10 +28,20 @@ const SQUARE: usize = SIDE * SIDE;
 /// Where a cell's ray from the viewer ends.
 #[derive(Clone, Copy)]
 pub(super) struct RayEnd {
-    /// A face of the receivers, or [`Surface::GROUND`], or [`Surface::SKY`].
+    /// A face of the receivers, or [`Surface::GROUND`], or [`Surface::SKY`]: the nearest, which is judged.
     pub(super) face: u32,
+    /// The same as it is shown: where faces are flush with the ground, the first of them.
+    shown: u32,
     /// Along the cell's ray, metres.
     pub(super) distance: f64,
+}
+
+impl RayEnd {
+    const SKY: RayEnd = RayEnd::of(Surface::SKY, f64::INFINITY);
+
+    const fn of(face: u32, distance: f64) -> RayEnd {
+        RayEnd { face, shown: face, distance }
+    }
 }
 
 /// The technique: one ray per cell to what is seen, once, and one ray per cell towards the sun at every instant.
@@ -40,6 +51,7 @@ pub struct RayCast {
     /// One tree where the same faces receive and cast.
     receivers: Arc<RayCaster>,
     casters: Arc<RayCaster>,
+    flush: Option<FlushFaces>,
     seen: Vec<RayEnd>,
     mask: Mask,
     sun_samples: Option<u32>,
@@ -67,15 +79,16 @@ impl RayCast {
         };
         let mask = Mask { width: 0, height: 0, share: Vec::new() };
         let rays = Rays::new(&scene, view);
-        let mut cast = RayCast { scene, rays, receivers, casters, seen: Vec::new(), mask, sun_samples };
+        let flush = FlushFaces::new(&scene.receivers, scene.ground);
+        let mut cast = RayCast { scene, rays, receivers, casters, flush, seen: Vec::new(), mask, sun_samples };
         cast.look_at_part(view, part);
         cast
     }
 
-    /// The face that each cell sees, as in [`Surface::face`].
+    /// The face that each cell sees, as in [`Surface::face`]: flush ones before the ground.
     #[doc(hidden)]
     pub fn faces(&self) -> Vec<u32> {
-        self.seen.par_iter().map(|seen| seen.face).collect()
+        self.seen.par_iter().map(|seen| seen.shown).collect()
     }
 
     /// The view.
@@ -92,16 +105,19 @@ impl RayCast {
     /// Looks at some of a view's cells: from which column and row, and how many.
     fn look_at_part(&mut self, view: View, (first, [width, height]): ([u32; 2], [u32; 2])) {
         self.rays = Rays { first, ..Rays::new(&self.scene, view) };
-        let mut ends = vec![RayEnd { face: Surface::SKY, distance: f64::INFINITY }; width as usize * height as usize];
+        let mut ends = vec![RayEnd::SKY; width as usize * height as usize];
         let parallel = self.rays.shared_direction().map(Shear::along);
-        ends.par_chunks_mut(width as usize * SIDE).enumerate().for_each(|(band, ends)| match &parallel {
-            Some(shear) => self.look_along(shear, [width as usize, band * SIDE], ends),
-            None => {
-                for (at, end) in ends.iter_mut().enumerate() {
-                    let ray = self.rays.of(at as u32 % width, (band * SIDE) as u32 + at as u32 / width);
-                    *end = seen(&self.scene, ray, self.receivers.first_hit(ray.0, ray.1));
+        ends.par_chunks_mut(width as usize * SIDE).enumerate().for_each(|(band, ends)| {
+            match &parallel {
+                Some(shear) => self.look_along(shear, [width as usize, band * SIDE], ends),
+                None => {
+                    for (at, end) in ends.iter_mut().enumerate() {
+                        let ray = self.rays.of(at as u32 % width, (band * SIDE) as u32 + at as u32 / width);
+                        *end = seen(&self.scene, ray, self.receivers.first_hit(ray.0, ray.1));
+                    }
                 }
             }
+            self.show_flush([width as usize, band * SIDE], ends);
         });
         self.mask = Mask { width, height, share: vec![255; ends.len()] };
         self.seen = ends;
@@ -121,6 +137,24 @@ impl RayCast {
             self.receivers.first_hits(&origins, shear, &mut hits);
             for ((Cell { at, .. }, ray), hit) in square.zip(rays).zip(hits) {
                 ends[at] = seen(&self.scene, ray, hit);
+            }
+        }
+    }
+
+    /// Shows flush faces before the plane in which they lie, in the cells of some rows: how wide they are, and the first one.
+    fn show_flush(&self, [width, first_row]: [usize; 2], ends: &mut [RayEnd]) {
+        let Some(flush) = &self.flush else { return };
+        for square in squares(width, ends.len()) {
+            let mut of = ArrayVec::<usize, SQUARE>::new();
+            let mut places = ArrayVec::<DVec2, SQUARE>::new();
+            for Cell { at, column, row } in square {
+                if let Some(place) = flush.place(ends[at].face, self.rays.of(column, first_row as u32 + row)) {
+                    of.push(at);
+                    places.push(place);
+                }
+            }
+            for (at, first) in of.into_iter().zip(flush.first(&places)) {
+                ends[at].shown = first.unwrap_or(ends[at].face);
             }
         }
     }
@@ -153,7 +187,7 @@ impl RayCast {
     /// Where a cell is judged, and the normal of what it sees; none where it sees nothing that could be in shadow.
     #[inline(always)]
     fn judged(&self, normals: &mut SeenNormals<'_>, Cell { at, column, row }: Cell) -> Option<(DVec3, DVec3)> {
-        let RayEnd { face, distance } = self.seen[at];
+        let RayEnd { face, distance, .. } = self.seen[at];
         // nor is cut earth asked
         if face == Surface::SKY || (face == Surface::GROUND && distance == 0.0) {
             return None;
@@ -234,7 +268,7 @@ impl RayCast {
         let (from, along) = rays.of(column, row);
         let faces = hits(&scene.receivers, from, &Shear::along(along));
         let first = faces.into_iter().min_by(|(_, one), (_, other)| one.total_cmp(other));
-        let RayEnd { face, distance } = seen(scene, (from, along), first);
+        let RayEnd { face, distance, .. } = seen(scene, (from, along), first);
         if face == Surface::SKY || (face == Surface::GROUND && distance == 0.0) {
             return 255;
         }
@@ -368,16 +402,13 @@ impl Rays {
 fn seen(scene: &Scene, (origin, direction): (DVec3, DVec3), first_hit: Option<(u32, f64)>) -> RayEnd {
     // a level ray that begins below the ground sees the earth that is cut there
     if direction.z == 0.0 && origin.z + scene.casters.origin.z < scene.ground {
-        return RayEnd { face: Surface::GROUND, distance: 0.0 };
+        return RayEnd::of(Surface::GROUND, 0.0);
     }
     let to_ground = (scene.ground - scene.casters.origin.z - origin.z) / direction.z;
-    let ground = if to_ground > 0.0 && to_ground.is_finite() {
-        RayEnd { face: Surface::GROUND, distance: to_ground }
-    } else {
-        RayEnd { face: Surface::SKY, distance: f64::INFINITY }
-    };
+    let ground =
+        if to_ground > 0.0 && to_ground.is_finite() { RayEnd::of(Surface::GROUND, to_ground) } else { RayEnd::SKY };
     match first_hit {
-        Some((face, distance)) if distance <= ground.distance => RayEnd { face, distance },
+        Some((face, distance)) if distance <= ground.distance => RayEnd::of(face, distance),
         _ => ground,
     }
 }
@@ -448,7 +479,7 @@ impl Technique for RayCast {
         Ok(Surface {
             width,
             height,
-            face: self.seen.iter().map(|seen| seen.face).collect(),
+            face: self.faces(),
             height_m: self.seen.par_iter().enumerate().map(height_of).collect(),
         })
     }

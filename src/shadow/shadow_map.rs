@@ -80,8 +80,8 @@ impl ShadowMap {
 
 /// The layout of the packed depths where else the map's depth is bound.
 fn packed_layout(gpu: &Gpu) -> BindGroupLayout {
-    let packed = super::surface::texture_binding(TextureSampleType::Float { filterable: false });
-    super::surface::bind_group_layout(gpu, "packed", &[packed])
+    let packed = super::bindings::texture_binding(TextureSampleType::Float { filterable: false });
+    super::bindings::bind_group_layout(gpu, "packed", &[packed])
 }
 
 impl Technique for ShadowMap {

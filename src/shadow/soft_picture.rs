@@ -230,7 +230,7 @@ fn looks(scene: &Scene, cast: &RayCast, patches: &Patches, width: u32) -> Vec<Pi
         }
     }
     let look = |at: usize| {
-        let RayEnd { face, distance } = cast.seen()[at];
+        let RayEnd { face, distance, .. } = cast.seen()[at];
         let (from, along) = cast.ray(at as u32 % width, at as u32 / width);
         let point = from + along * distance;
         match face {

@@ -1,20 +1,20 @@
 //! What each cell of a view sees, on the GPU: a G-buffer that is drawn once for a scene and a view, with the ground
 //! that the stencil technique uses.
 
+use super::bindings::{Corner, UNIFORM, bind_group_layout, pipeline_layout, planes, texture_binding};
+use super::flush_layer::{FlushCorners, FlushLayer};
 use super::frame::{clip_from_local, uniform};
 use super::{Scene, ShadowError};
 use crate::gpu::layout::{self, LightUniforms};
 use crate::gpu::targets::{COUNTED, DEPTH, NUMBER, SHARE, Stages, whole};
-use crate::gpu::{Gpu, GpuError, readback, shaders};
+use crate::gpu::{Gpu, readback, shaders};
 use crate::mesh::Mesh;
 use crate::view::{Surface, View};
 use glam::{DMat4, DVec3, DVec4};
 use rayon::prelude::*;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use wgpu::*;
 
-/// Receivers' planes lie in rows of this many texels (`PLANES_WIDTH` of `shaders/common/seen.wgsl`).
-pub(crate) const PLANES_WIDTH: usize = 4096;
 /// Faces that are uploaded at once: a receiver is drawn once, so no buffer of all of them is kept.
 const FACES_AT_ONCE: usize = 1 << 18;
 
@@ -42,6 +42,9 @@ pub struct GpuSurface {
     pub(crate) seen: BindGroup,
     frame_layout: BindGroupLayout,
     seen_layout: BindGroupLayout,
+    /// Receivers that are flush with the ground, and once they are shown what draws them.
+    flush: FlushCorners,
+    layer: OnceLock<FlushLayer>,
 }
 
 impl GpuSurface {
@@ -90,6 +93,8 @@ impl GpuSurface {
             seen,
             frame_layout,
             seen_layout,
+            flush: FlushCorners::of(&scene.receivers, scene.ground),
+            layer: OnceLock::new(),
         };
         surface.draw_receivers(&scene.receivers)?;
         Ok(surface)
@@ -169,7 +174,7 @@ impl GpuSurface {
                 let corners: Vec<Corner> = (first..first + count)
                     .into_par_iter()
                     .filter(|&face| !seen_edge_on(receivers, face, &self.view))
-                    .flat_map_iter(|face| receivers.corners(face).map(|corner| Corner(corner.to_array(), face as u32)))
+                    .flat_map_iter(|face| Corner::of(receivers, face as u32))
                     .collect();
                 gpu.queue.write_buffer(&vertices, 0, bytemuck::cast_slice(&corners));
                 pass.set_pipeline(receiver);
@@ -313,9 +318,44 @@ impl GpuSurface {
         self.gpu.queue.write_buffer(&self.light, 0, bytemuck::bytes_of(&light));
     }
 
+    /// The faces that a picture shows, where they are not those that are judged: with receivers that are flush with the
+    /// ground before it.
+    fn shown(&self) -> Result<Option<Texture>, ShadowError> {
+        if self.flush.is_empty() {
+            return Ok(None);
+        }
+        let layer = match self.layer.get() {
+            Some(layer) => layer,
+            None => {
+                let group = FlushLayer::group(&self.gpu);
+                let layout = self.seeing_layout(&[&group]);
+                let layer = FlushLayer::new(&self.gpu, &self.flush, &group, &layout)?;
+                self.layer.get_or_init(|| layer)
+            }
+        };
+        let shown = faces_target(&self.gpu, "surface.shown", &self.view);
+        let mut encoder = self.encoder();
+        encoder.copy_texture_to_texture(self.faces.as_image_copy(), shown.as_image_copy(), shown.size());
+        layer.draw(&mut encoder, &shown, [&self.frame, &self.seen]);
+        self.gpu.queue.submit([encoder.finish()]);
+        self.gpu.check()?;
+        Ok(Some(shown))
+    }
+
+    /// Replaces the faces that are judged by those that are shown. For pictures, in which nothing is judged.
+    pub(crate) fn show_flush(&mut self) -> Result<(), ShadowError> {
+        if let Some(shown) = self.shown()? {
+            self.faces = shown;
+            self.seen = bind_seen(&self.gpu, &self.seen_layout, [&self.faces, &self.planes, &self.depth]);
+        }
+        Ok(())
+    }
+
     /// The surface in the processor's memory.
     pub fn read(&self) -> Result<Surface, ShadowError> {
-        let face: Vec<u32> = readback::texels(&self.gpu, &self.faces, TextureAspect::All)?;
+        let shown = self.shown()?;
+        let faces = shown.as_ref().unwrap_or(&self.faces);
+        let face: Vec<u32> = readback::texels(&self.gpu, faces, TextureAspect::All)?;
         let depth: Vec<f32> = readback::texels(&self.gpu, &self.depth, TextureAspect::DepthOnly)?;
         let (width, height) = self.view.size();
         let local_from_clip = self.clip_from_local.inverse();
@@ -333,9 +373,12 @@ impl GpuSurface {
 /// Where the depth and the faces of what is seen are drawn.
 fn targets(gpu: &Gpu, view: &View) -> [Texture; 2] {
     let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
-    let faces = usage | TextureUsages::COPY_DST;
-    [("surface.depth", DEPTH, usage), ("surface.faces", NUMBER, faces)]
-        .map(|(label, format, usage)| gpu.texture(label, view.size(), format, usage))
+    [gpu.texture("surface.depth", view.size(), DEPTH, usage), faces_target(gpu, "surface.faces", view)]
+}
+
+fn faces_target(gpu: &Gpu, label: &str, view: &View) -> Texture {
+    let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
+    gpu.texture(label, view.size(), NUMBER, usage | TextureUsages::COPY_SRC | TextureUsages::COPY_DST)
 }
 
 fn bind_seen(gpu: &Gpu, layout: &BindGroupLayout, textures: [&Texture; 3]) -> BindGroup {
@@ -344,24 +387,10 @@ fn bind_seen(gpu: &Gpu, layout: &BindGroupLayout, textures: [&Texture; 3]) -> Bi
     gpu.bind("seen", layout, &[entry(0), entry(1), entry(2)])
 }
 
-fn pipeline_layout(gpu: &Gpu, groups: &[&BindGroupLayout]) -> PipelineLayout {
-    let groups: Vec<_> = groups.iter().map(|group| Some(*group)).collect();
-    gpu.device.create_pipeline_layout(&PipelineLayoutDescriptor {
-        label: Some("shadow"),
-        bind_group_layouts: &groups,
-        immediate_size: 0,
-    })
-}
-
 /// What draws the ground, and receivers.
 fn pipelines(gpu: &Gpu, frame_layout: &BindGroupLayout) -> [RenderPipeline; 2] {
     let module = gpu.shader("surface", shaders::SURFACE);
     let layout = pipeline_layout(gpu, &[frame_layout]);
-    let corner = VertexBufferLayout {
-        array_stride: size_of::<Corner>() as u64,
-        step_mode: VertexStepMode::Vertex,
-        attributes: &vertex_attr_array![0 => Float32x3, 1 => Uint32],
-    };
     let stages = |vertex, fragment, buffers| Stages {
         module: &module,
         vertex,
@@ -377,17 +406,12 @@ fn pipelines(gpu: &Gpu, frame_layout: &BindGroupLayout) -> [RenderPipeline; 2] {
         stencil: StencilState::default(),
         bias: DepthBiasState::default(),
     };
-    let buffers = [Some(corner)];
+    let buffers = [Some(Corner::LAYOUT)];
     [
         gpu.pipeline("surface.ground", stages("whole_picture", "ground", &[]), Some(nearest.clone())),
         gpu.pipeline("surface.receiver", stages("receiver", "receiver_face", &buffers), Some(nearest)),
     ]
 }
-
-/// A receiver's corner, as `receiver` of `shaders/surface.wgsl` takes it: position and face.
-#[repr(C)]
-#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
-struct Corner([f32; 3], u32);
 
 /// Whether the plan sees a steep face so much from its edge that it is thinner than the raster's rounding of corners:
 /// no cell's centre should see it, and one that did would find any depth. Slivers in a roof fill it, and stay.
@@ -397,43 +421,4 @@ fn seen_edge_on(mesh: &Mesh, face: usize, view: &View) -> bool {
     let longest = (b - a).length().max((c - b).length()).max((a - c).length());
     let twice_area = (b - a).perp_dot(c - a).abs();
     mesh.planes()[face].z.abs() < 0.01 && twice_area < longest * grid.cell / 256.0
-}
-
-/// The planes of faces as a texture, which no adapter limits to the size of a binding.
-pub(crate) fn planes(gpu: &Gpu, mesh: &Mesh) -> Result<Texture, GpuError> {
-    let rows = mesh.planes().len().div_ceil(PLANES_WIDTH).max(1);
-    let most = gpu.limits.max_texture_dimension_2d as usize;
-    if rows > most {
-        let (faces, most) = (mesh.planes().len(), most * PLANES_WIDTH);
-        return Err(gpu.failed(format!("{faces} triangles are more than the {most} that its largest texture holds")));
-    }
-    let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
-    let texture = gpu.texture("surface.planes", (PLANES_WIDTH as u32, rows as u32), TextureFormat::Rgba32Float, usage);
-    let mut texels: Vec<[f32; 4]> = mesh.planes().iter().map(|plane| plane.as_vec4().to_array()).collect();
-    texels.resize(rows * PLANES_WIDTH, [0.0; 4]);
-    gpu.queue.write_texture(
-        texture.as_image_copy(),
-        bytemuck::cast_slice(&texels),
-        TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(PLANES_WIDTH as u32 * 16), rows_per_image: None },
-        texture.size(),
-    );
-    Ok(texture)
-}
-
-pub(crate) const UNIFORM: BindingType =
-    BindingType::Buffer { ty: BufferBindingType::Uniform, has_dynamic_offset: false, min_binding_size: None };
-
-pub(crate) fn texture_binding(sample_type: TextureSampleType) -> BindingType {
-    BindingType::Texture { sample_type, view_dimension: TextureViewDimension::D2, multisampled: false }
-}
-
-pub(crate) fn bind_group_layout(gpu: &Gpu, label: &str, types: &[BindingType]) -> BindGroupLayout {
-    let entry = |(binding, ty): (usize, &BindingType)| BindGroupLayoutEntry {
-        binding: binding as u32,
-        visibility: ShaderStages::VERTEX_FRAGMENT,
-        ty: *ty,
-        count: None,
-    };
-    let entries: Vec<_> = types.iter().enumerate().map(entry).collect();
-    gpu.device.create_bind_group_layout(&BindGroupLayoutDescriptor { label: Some(label), entries: &entries })
 }

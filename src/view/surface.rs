@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-/// What each cell of a view sees first, models before ground.
+/// What each cell of a view sees first, models before ground: of faces that are flush with the
+/// ground, the first.
 ///
 /// Drawn once per study, since it does not depend on the sun. Drawings take roofs and outlines from it.
 #[derive(Clone, Debug)]

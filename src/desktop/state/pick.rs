@@ -1,7 +1,7 @@
 //! What lies under a point of the picture, and how far the models reach.
 
 use crate::desktop::state::project::Project;
-use crate::view::View;
+use crate::view::{Surface, View};
 use eframe::egui::{self, Rect};
 use glam::DVec3;
 
@@ -79,19 +79,21 @@ pub(in crate::desktop) fn under(
     let hit = rays.first_hit(from - mesh.origin, along);
     let ground = (project.site.ground.level - from.z) / along.z;
     let ground = Some(ground).filter(|distance| *distance > 0.0 && distance.is_finite());
-    match hit {
-        Some((face, distance)) if ground.is_none_or(|ground| distance <= ground) => {
-            let plane = mesh.planes()[face as usize].truncate();
-            let normal = if plane.dot(along) > 0.0 { -plane } else { plane };
-            let component = mesh.components.partition_point(|component| component.faces.end <= face);
-            let name = mesh.components.get(component)?.name.clone();
-            let face = Some(among_receivers(project, face));
-            Some(PickedPoint { point: from + along * distance, normal, face, name })
-        }
-        _ => {
-            Some(PickedPoint { point: from + along * ground?, normal: DVec3::Z, face: None, name: "ground".to_owned() })
-        }
+    let (nearest, distance) = match hit {
+        Some((face, distance)) if ground.is_none_or(|ground| distance <= ground) => (face, distance),
+        _ => (Surface::GROUND, ground?),
+    };
+    // as pictures show it
+    let face = project.flush.as_ref().map_or(nearest, |flush| flush.seen(nearest, (from - mesh.origin, along)));
+    let point = from + along * distance;
+    if face == Surface::GROUND {
+        return Some(PickedPoint { point, normal: DVec3::Z, face: None, name: "ground".to_owned() });
     }
+    let plane = mesh.planes()[face as usize].truncate();
+    let normal = if plane.dot(along) > 0.0 { -plane } else { plane };
+    let component = mesh.components.partition_point(|component| component.faces.end <= face);
+    let name = mesh.components.get(component)?.name.clone();
+    Some(PickedPoint { point, normal, face: Some(among_receivers(project, face)), name })
 }
 
 /// Which of the faces that receive it is, told which of those that are visible.

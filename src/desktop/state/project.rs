@@ -3,6 +3,7 @@
 use crate::desktop::state::settings::{Hidden, WindowSettings};
 use crate::formats::ModelReader;
 use crate::mesh::Mesh;
+use crate::shadow::FlushFaces;
 use crate::shadow::ray_cast::RayCaster;
 use crate::site::file::{PlaceTable, SiteFile, Text};
 use crate::site::{Models, Overrides, Site, SiteError, WrittenSite};
@@ -29,6 +30,8 @@ pub(in crate::desktop) struct Project {
     pub(in crate::desktop) colours: Vec<[u8; 3]>,
     /// What is visible, to be asked what lies under the pointer; and whose faces those are.
     pub(in crate::desktop) seen: Arc<(Mesh, RayCaster)>,
+    /// Of these, what is flush with the ground.
+    pub(in crate::desktop) flush: Option<Arc<FlushFaces>>,
     /// Models that came together with its site file, to be added to it.
     pub(in crate::desktop) beside: Vec<PathBuf>,
 }
@@ -40,6 +43,7 @@ pub(in crate::desktop) struct LoadedSite {
     pub(in crate::desktop) models: Option<Models>,
     pub(in crate::desktop) visible: Arc<Site>,
     pub(in crate::desktop) seen: Arc<(Mesh, RayCaster)>,
+    pub(in crate::desktop) flush: Option<Arc<FlushFaces>>,
 }
 
 impl Project {
@@ -50,6 +54,7 @@ impl Project {
             models: (!reads_models).then(|| self.models.clone()),
             visible: Arc::clone(&self.visible),
             seen: Arc::clone(&self.seen),
+            flush: self.flush.clone(),
         }
     }
 

@@ -9,6 +9,7 @@ use crate::export::figure::component_colours;
 use crate::fault;
 use crate::formats::{ModelReader, is_model};
 use crate::message::Words;
+use crate::shadow::FlushFaces;
 use crate::shadow::ray_cast::RayCaster;
 use crate::site::{Models, Overrides, Site, SiteError, WrittenSite};
 use eframe::egui;
@@ -220,6 +221,10 @@ fn read(
             Arc::new((seen, rays))
         }
     };
+    let flush = match before.filter(|before| Arc::ptr_eq(&before.seen, &seen)) {
+        Some(before) if before.visible.ground.level == site.ground.level => before.flush.clone(),
+        _ => FlushFaces::new(&seen.0, site.ground.level).map(Arc::new),
+    };
     progress.tell(1.0, "Drawing");
     let Some(models) = models else { return Err(LoadError::Message("the models were not read".to_owned())) };
     // what a file proposes is in the panel, and is saved
@@ -232,6 +237,7 @@ fn read(
         reading: progress.reading.until(&Arc::default()),
         colours: component_colours(&site.mesh, &site.casts),
         seen,
+        flush,
         site,
         hidden,
         visible,

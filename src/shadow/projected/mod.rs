@@ -12,7 +12,7 @@ mod on_gpu;
 pub use on_gpu::ProjectedOnGpu;
 
 use super::flat::FlatShadow;
-use super::plan_surface::highest;
+use super::plan_surface::tile_surface;
 use super::raised::{Falling, RaisedCells};
 use super::ray_cast::{RayCaster, Shear, TIE, reach};
 use super::{DrawnMask, JUDGED_ABOVE_M, Scene, ShadowError, SingleCells, Technique};
@@ -119,9 +119,7 @@ impl Technique for Projected {
     }
 
     fn surface(&self) -> Result<Surface, ShadowError> {
-        let Tile { size: [width, height], .. } = self.tile;
-        let (face, height_m) = highest(&self.scene.receivers, self.scene.ground, self.tile, |height| height as f32);
-        Ok(Surface { width, height, face, height_m })
+        Ok(tile_surface(&self.scene.receivers, self.scene.ground, self.tile))
     }
 }
 

@@ -92,7 +92,7 @@ impl RaisedCells {
         if receivers.faces.is_empty() {
             return raised;
         }
-        let (face, height) = highest(receivers, *ground, tile, |height| height);
+        let (face, height) = highest(receivers, *ground, tile);
         let [first_column, first_row] = tile.first;
         let width = tile.size[0] as usize;
         for row in 0..tile.size[1] {

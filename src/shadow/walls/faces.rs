@@ -4,7 +4,7 @@ use super::WallQuery;
 use crate::gpu::targets::whole;
 use crate::gpu::{Gpu, GpuError, layout, shaders};
 use crate::mesh::Mesh;
-use crate::shadow::surface;
+use crate::shadow::bindings;
 use std::sync::Arc;
 use wgpu::{
     BindGroup, BindingResource, Buffer, BufferUsages, CommandEncoder, ComputePassDescriptor, ComputePipeline,
@@ -61,7 +61,7 @@ impl Faces {
         let search = gpu.uniform::<layout::SearchUniforms>("faces.search");
         let bits = mesh.faces.len().div_ceil(32) as u64 * 4;
         let facing = gpu.storage("faces.facing", bits, most, BufferUsages::COPY_SRC)?;
-        let planes = surface::planes(gpu, mesh)?;
+        let planes = bindings::planes(gpu, mesh)?;
         let decide = gpu.bind(
             "faces.decide",
             &program.decide.get_bind_group_layout(GROUP),

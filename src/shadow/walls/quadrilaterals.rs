@@ -10,7 +10,7 @@ use super::faces::{self, Faces, GROUP};
 use super::query::{NO_FACE, WallQuery, Walls, packed};
 use crate::gpu::{Gpu, GpuError, layout, shaders};
 use crate::mesh::Mesh;
-use crate::shadow::surface::bind_group_layout;
+use crate::shadow::bindings::bind_group_layout;
 use std::sync::Arc;
 use wgpu::{
     BindGroup, BindGroupLayout, BindingType, BufferBindingType, BufferUsages, CommandEncoder, RenderPass, ShaderModule,
