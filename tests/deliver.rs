@@ -305,8 +305,8 @@ fn every_deliverable_goes_into_memory() {
     let pair = pair.unwrap();
     let point = Overrides { point: Some(glam::dvec3(12.0, -3.0, 4.5)), ..Overrides::default() };
     let probing = load_probes(path, &point).unwrap();
-    let [one, other, third, of_volumes] =
-        ["one.png", "other.png", "third.csv", "volumes.glb"].map(|name| path.join(name));
+    let [one, other, third, of_volumes, sky] =
+        ["one.png", "other.png", "third.csv", "volumes.glb", "sky.svg"].map(|name| path.join(name));
     let of_instant = InstantRequest {
         view: View::Plan(site.grid),
         drawing: Some(one.clone()),
@@ -315,8 +315,13 @@ fn every_deliverable_goes_into_memory() {
         statistics: false,
         watch: watch.clone(),
     };
-    let of_probe =
-        ProbeRequest { drawing: Some(one), table: Some(other), totals: Some(third), ..ProbeRequest::default() };
+    let of_probe = ProbeRequest {
+        drawing: Some(one),
+        table: Some(other),
+        totals: Some(third),
+        sky: Some(sky),
+        ..ProbeRequest::default()
+    };
     let all = PatchesRequest::all(watch.clone());
     let on_event = |_: Event<'_>| Continue(());
     let of_one = |sink: Sink<'_>| instant(&site, &of_instant, sink, &mut on_event.clone()).unwrap().written;
@@ -328,7 +333,7 @@ fn every_deliverable_goes_into_memory() {
     let (files, folder) = (Sink::Paths { inputs: &[] }, Sink::Folder(inside(&out)));
     let deliverables: [(Write<'_>, Sink<'_>, usize); 5] = [
         (&of_one, files, 2),
-        (&of_points, files, 3),
+        (&of_points, files, 4),
         (&of_solids, files, 1),
         (&of_walls, folder, 4),
         (&of_both, folder, 3),

@@ -2,6 +2,7 @@
 //! casting, and on odd days; then as users drive it.
 
 mod asked;
+mod sky;
 mod twin;
 
 use crate::shared::drawing::{plan, scene_of};

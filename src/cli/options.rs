@@ -63,6 +63,7 @@ impl Words for Options {
             Field::Masks => "--masks",
             Field::Bits => "--bits",
             Field::Memory => "--memory",
+            Field::Sky => "--sky",
             Field::Out => "--out",
             Field::Csv => "--csv",
             Field::All => "--all",

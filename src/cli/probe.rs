@@ -14,6 +14,7 @@ use crate::export::probe as told;
 use crate::message::Field;
 use crate::site::{Overrides, SiteError, load_probes};
 use clap::Args;
+use std::ffi::OsStr;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -65,6 +66,11 @@ pub(super) struct ProbeArgs {
     /// A table of the seconds in the sun a day, a month and a year: probe,unit,date,days,seconds,longest_seconds,intervals
     #[arg(long, value_name = "FILE.csv")]
     totals: Option<PathBuf>,
+    /// The sky of each point, as a stereographic and a cylindrical sun-path chart on one sheet: the sun's ways, hours of
+    /// clock and sundial, what stands before them, and the sun that the point sees. PNG, or SVG by its ending; of several
+    /// points each has its number in the name: sky-1.png
+    #[arg(long, value_name = "FILE.png|svg")]
+    sky: Option<PathBuf>,
     #[command(flatten)]
     pub(super) common: Common,
 }
@@ -89,14 +95,22 @@ impl ProbeArgs {
 }
 
 pub(super) fn probe(asked: &ProbeArgs) -> anyhow::Result<()> {
-    let files = [("--out", "png", &asked.out), ("--csv", "csv", &asked.csv), ("--totals", "csv", &asked.totals)];
-    for (option, format, path) in
-        files.iter().filter_map(|(option, format, path)| Some((option, format, path.as_ref()?)))
+    let files = [
+        ("--out", &["png"][..], &asked.out),
+        ("--csv", &["csv"], &asked.csv),
+        ("--totals", &["csv"], &asked.totals),
+        ("--sky", &["png", "svg"], &asked.sky),
+    ];
+    for (option, formats, path) in
+        files.iter().filter_map(|(option, formats, path)| Some((option, formats, path.as_ref()?)))
     {
-        if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case(format)) {
+        let is_one = |extension: &OsStr| formats.iter().any(|format| extension.eq_ignore_ascii_case(format));
+        if !path.extension().is_some_and(is_one) {
+            let named: Vec<_> = formats.iter().map(|format| format!(".{format}")).collect();
             let what = format!(
-                "{option} writes {}; name a .{format} file instead of {}",
-                format.to_uppercase(),
+                "{option} writes {}; name a {} file instead of {}",
+                formats.join(" or ").to_uppercase().replace(" OR ", " or "),
+                named.join(" or "),
                 path.display()
             );
             return Err(WrongUse(what).into());
@@ -107,6 +121,7 @@ pub(super) fn probe(asked: &ProbeArgs) -> anyhow::Result<()> {
         drawing: asked.out.clone(),
         table: asked.csv.clone(),
         totals: asked.totals.clone(),
+        sky: asked.sky.clone(),
         words: &Options,
     };
     let mut progress = Progress::of("days", asked.common.quiet);

@@ -24,6 +24,13 @@ pub enum DeliverError {
         /// The greatest number of frames.
         most: usize,
     },
+    /// There are more points than have their skies drawn at once.
+    TooManySkies {
+        /// The number of points.
+        count: usize,
+        /// The greatest number of drawings.
+        most: usize,
+    },
     /// Nothing casts a shadow at night.
     Night {
         /// The time.
@@ -47,6 +54,10 @@ impl Worded for DeliverError {
                 format!("the study has {count} instants, and an animation at most {most} frames");
                 "take a longer ", Field::Step, ", or fewer hours", by_clock()
             ],
+            DeliverError::TooManySkies { count, most } => message![
+                Field::Sky, format!(": there are {count} points, and each has a drawing of its own, at most {most} at once");
+                "ask for fewer points, or leave it out"
+            ],
             DeliverError::Night { time, below_deg } => message![
                 format!(
                     "no sun at {}: it is {below_deg:.1}° below the horizon, and nothing casts a shadow",
@@ -65,7 +76,7 @@ impl DeliverError {
         match self {
             DeliverError::Study(error) => error.is_wrong_use(),
             DeliverError::Export(error) => error.is_wrong_use(),
-            DeliverError::Lines(_) | DeliverError::TooManyFrames { .. } => true,
+            DeliverError::Lines(_) | DeliverError::TooManyFrames { .. } | DeliverError::TooManySkies { .. } => true,
             DeliverError::Night { .. } | DeliverError::Solid(_) => false,
         }
     }

@@ -1,11 +1,13 @@
-//! The intervals in which points lie in the sun, as a drawing and a table.
+//! The intervals in which points lie in the sun, as drawings and tables.
 
 use super::parts::note_letters;
+use super::sink::NamedFile;
 use super::{DeliverError, Sink, WrittenFiles};
 use crate::export::totals::totals as encode_totals;
 use crate::export::{figure, probe as encode};
 use crate::message::{Message, Words};
 use crate::site::ProbeSite;
+use crate::study::sky::SkySearch;
 use crate::study::{self, Event, OnEvent, tell};
 use crate::sunlight::Sunlight;
 use std::path::PathBuf;
@@ -19,6 +21,9 @@ pub struct ProbeRequest {
     pub table: Option<PathBuf>,
     /// The name of the table of totals: a day, a month and a year. Without a name there is none.
     pub totals: Option<PathBuf>,
+    /// The name of the drawing of a point's sky, a PNG or by its ending an SVG. Of several points each has its own, with
+    /// the point's number in its name. Without a name there is none.
+    pub sky: Option<PathBuf>,
     /// The face's words, for the fields that the drawing mentions.
     pub words: &'static dyn Words,
 }
@@ -44,9 +49,11 @@ pub fn probe(
     sink: Sink<'_>,
     on_event: &mut OnEvent<'_>,
 ) -> Result<ProbeAnswer, DeliverError> {
-    let names: Vec<PathBuf> = [&asked.drawing, &asked.table, &asked.totals].into_iter().flatten().cloned().collect();
+    let skies = sky_names(probing, asked)?;
+    let one_each = [&asked.drawing, &asked.table, &asked.totals].into_iter().flatten();
+    let names: Vec<PathBuf> = one_each.chain(&skies).cloned().collect();
     let open = sink.open(&names, None)?;
-    if asked.drawing.is_some() {
+    if asked.drawing.is_some() || asked.sky.is_some() {
         let all = probing.probes.iter().chain(probing.laid.iter().filter_map(|sides| sides.first()));
         let probes = all.map(|probe| probe.name.as_str());
         note_letters([probing.place.name.as_str()].into_iter().chain(probes), on_event)?;
@@ -67,5 +74,67 @@ pub fn probe(
         files.push((name.clone(), figure::strips(&sunlight, &probing.place, &probing.ground, asked.words)?));
     }
     tell(on_event, Event::Stage("picture"))?;
+    if !skies.is_empty() {
+        draw_skies(probing, &sunlight, skies, &mut files, on_event)?;
+    }
     Ok(ProbeAnswer { written: open.write(files)?, sunlight, notes })
+}
+
+/// The most points whose skies are drawn at once: each is a sheet.
+pub const MOST_SKIES: usize = 100;
+
+/// The names of the drawings of skies: the requested one, or for several points that with each point's number.
+fn sky_names(probing: &ProbeSite, asked: &ProbeRequest) -> Result<Vec<PathBuf>, DeliverError> {
+    let Some(name) = &asked.sky else { return Ok(Vec::new()) };
+    let count = probing.probes.len() + probing.laid.iter().filter(|sides| !sides.is_empty()).count();
+    if count > MOST_SKIES {
+        return Err(DeliverError::TooManySkies { count, most: MOST_SKIES });
+    }
+    if count == 1 {
+        return Ok(vec![name.clone()]);
+    }
+    let digits = count.to_string().len();
+    let numbered = |number: usize| {
+        let mut file = name.file_stem().unwrap_or_default().to_owned();
+        file.push(format!("-{number:0digits$}"));
+        let mut path = name.with_file_name(file);
+        if let Some(extension) = name.extension() {
+            // a dot in the stem is none of an ending's
+            path.as_mut_os_string().push(".");
+            path.as_mut_os_string().push(extension);
+        }
+        path
+    };
+    Ok((1..=count).map(numbered).collect())
+}
+
+/// Adds the drawing of each point's sky.
+fn draw_skies(
+    probing: &ProbeSite,
+    sunlight: &Sunlight,
+    names: Vec<PathBuf>,
+    files: &mut Vec<NamedFile>,
+    on_event: &mut OnEvent<'_>,
+) -> Result<(), DeliverError> {
+    let search = SkySearch::new(probing, sunlight);
+    let lines = search.lines()?;
+    let colours = figure::sky_colours(&probing.mesh, &probing.casts);
+    for (probe, name) in names.into_iter().enumerate().take(sunlight.probes.len()) {
+        tell(on_event, Event::Stage("sky"))?;
+        let rasters = search.rasters(probe, figure::sky_pictures(&probing.place));
+        let shown = figure::SkyContext {
+            place: &probing.place,
+            ground: &probing.ground,
+            sunlight,
+            probe,
+            lines: &lines,
+            ways: &search.ways(probe)?,
+            colours: &colours,
+        };
+        let drawing = figure::sky_sheet(&shown, &rasters);
+        let is_svg = name.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("svg"));
+        let bytes = if is_svg { drawing.svg().into_bytes() } else { drawing.png()? };
+        files.push((name, bytes));
+    }
+    Ok(())
 }

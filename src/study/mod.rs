@@ -28,6 +28,8 @@ mod patches;
 pub mod probe;
 mod profile;
 mod site_view;
+#[doc(hidden)]
+pub mod sky;
 mod stopwatch;
 mod subject;
 mod tile_sum;

@@ -121,12 +121,12 @@ fn openness(rays: &RayCaster, point: DVec3, normal: Option<DVec3>) -> f64 {
 }
 
 /// The air that bends the sun's light, where it does.
-fn air(asked: &ProbeSite) -> Option<Air> {
+pub(super) fn air(asked: &ProbeSite) -> Option<Air> {
     asked.refraction.then(|| Air::standard(asked.place.elevation_m))
 }
 
 /// Where probes are judged: one on the terrain, as exactly as its heights are, a millimetre above it, as all receivers are.
-fn judged_points(asked: &ProbeSite, probes: &[Probe]) -> Vec<JudgedPoint> {
+pub(super) fn judged_points(asked: &ProbeSite, probes: &[Probe]) -> Vec<JudgedPoint> {
     let terrain: Vec<bool> = match asked.ground.kind {
         GroundKind::Plane => Vec::new(),
         GroundKind::Terrain => asked.mesh.components.iter().map(|component| component.is_terrain).collect(),

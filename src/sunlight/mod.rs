@@ -9,9 +9,13 @@ mod search;
 mod shade;
 mod sift;
 mod sky_cells;
+mod sky_lines;
+mod sky_raster;
 mod sun_path;
 
 pub use patches::{Exposure, PatchHours};
 pub use probes::{Interval, IntervalBound, JudgedPoint, ProbeIntervals, SunDay, Sunlight, judged, longest, secs};
 pub use search::{ProbeSearch, SearchedDays};
+pub use sky_lines::{DayWay, HourLine, ProbeWay, SkyLines};
+pub use sky_raster::{SkyCaster, SkyCell, SkyRaster};
 pub use sun_path::SunPath;

@@ -10,6 +10,7 @@ mod grid;
 mod mask;
 mod overlay;
 mod probe;
+mod sky;
 mod surface;
 
 pub use camera::Camera;
@@ -25,6 +26,8 @@ pub use mask::{Bits, Mask};
 pub use overlay::Overlay;
 #[doc(hidden)]
 pub use probe::Probe;
+#[doc(hidden)]
+pub use sky::{SkyPicture, SkyProjection};
 pub use surface::Surface;
 #[doc(hidden)]
 pub use surface::SurfaceRows;

@@ -85,6 +85,15 @@ pub(super) fn chart(
     png(&Sheet { pieces, picture: None })
 }
 
+/// As [`whole`] with the panel beside it, for what fills all of its field: `draw` is told how many pixels that has.
+pub(super) fn whole_chart(panel: &Panel, draw: impl FnOnce((u32, u32)) -> Block) -> Block {
+    let mut layout = with_picture(BESIDE, (BESIDE[2] as u32, BESIDE[3] as u32));
+    stand_beside(panel, None, &mut layout.overlay);
+    let field = draw(layout.fit.pixels);
+    layout.overlay.place(layout.corner.0.into(), layout.corner.1.into(), &field);
+    layout.overlay
+}
+
 /// How much larger the picture must become for the panel to be put below it, where it is less convenient.
 const WORTH_IT: f64 = 1.12;
 

@@ -7,9 +7,11 @@ mod base;
 mod hours;
 mod labels;
 mod outlines;
+mod sky;
 
 pub use hours::iso_hours;
 pub use outlines::{MOST_OUTLINES, Outline, outlines};
+pub use sky::{SkyContext, sky_colours, sky_pictures, sky_sheet};
 
 use super::Panel;
 use super::page::{self, Sheet};

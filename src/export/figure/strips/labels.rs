@@ -57,7 +57,11 @@ fn is_cut(day: &SunDay) -> bool {
 }
 
 /// A probe's total, its longest interval, and for several days those with the least and the most.
-fn sums(facts: &mut Vec<(&'static str, String)>, sunlight: &Sunlight, probed: &ProbeIntervals) {
+pub(in crate::export::figure) fn sums(
+    facts: &mut Vec<(&'static str, String)>,
+    sunlight: &Sunlight,
+    probed: &ProbeIntervals,
+) {
     facts.push(("Total", clock(probed.secs())));
     let several = sunlight.days.len() > 1;
     let on =
@@ -72,7 +76,7 @@ fn sums(facts: &mut Vec<(&'static str, String)>, sunlight: &Sunlight, probed: &P
 }
 
 /// The date or dates, and the time zone.
-fn lead(sunlight: &Sunlight, place: &Place) -> Vec<String> {
+pub(in crate::export::figure) fn lead(sunlight: &Sunlight, place: &Place) -> Vec<String> {
     let (Some(first), Some(last)) = (sunlight.days.first(), sunlight.days.last()) else { return Vec::new() };
     let [from, to] = [first, last].map(|day| words::date(day.window.day.date));
     let dates = if from == to { from } else { format!("{from} – {to}") };

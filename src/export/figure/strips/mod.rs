@@ -2,7 +2,7 @@
 
 mod axes;
 mod colours;
-mod labels;
+pub(super) mod labels;
 
 use super::page::{self, PAPER};
 use super::picture::{CellBorder, Fit, PagePicture, compose};

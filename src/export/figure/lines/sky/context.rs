@@ -1,0 +1,48 @@
+//! What a sheet of a point's sky is made of.
+
+use crate::export::figure::component_colours;
+use crate::export::figure::scale::Rgb;
+use crate::mesh::Mesh;
+use crate::site::Ground;
+use crate::sun::Place;
+use crate::sunlight::{ProbeWay, SkyLines, Sunlight};
+use crate::view::SkyPicture;
+use std::f64::consts::PI;
+
+/// What a sheet shows of one point.
+pub struct SkyContext<'a> {
+    /// The place.
+    pub place: &'a Place,
+    /// The ground.
+    pub ground: &'a Ground,
+    /// What was found of all points.
+    pub sunlight: &'a Sunlight,
+    /// Which of them it is.
+    pub probe: usize,
+    /// The lines of the year.
+    pub lines: &'a SkyLines,
+    /// The ways of the requested days.
+    pub ways: &'a [ProbeWay],
+    /// The colour of each of [`Sunlight::components`].
+    pub colours: &'a [Rgb],
+}
+
+/// The diameter of the disc and the width of the strip, and the side of a cell of what stands before the point: pixels of
+/// the page.
+pub(super) const DISC: u32 = 1400;
+pub(super) const STRIP: u32 = 2240;
+pub(super) const CELL: f64 = 2.0;
+
+/// The pictures of which a sheet needs rasters: the stereographic one, then the cylindrical one, which has the sun's noon
+/// in its middle.
+pub fn sky_pictures(place: &Place) -> [SkyPicture; 2] {
+    let middle_rad = if place.latitude_deg < 0.0 { 0.0 } else { PI };
+    let cells = |pixels: u32| (f64::from(pixels) / CELL) as u32;
+    [SkyPicture::stereographic(cells(DISC)), SkyPicture::cylindrical(cells(STRIP), middle_rad)]
+}
+
+/// The components' colours, of those alone that cast: as [`Sunlight::components`] has them.
+pub fn sky_colours(mesh: &Mesh, casts: &[bool]) -> Vec<Rgb> {
+    let all = component_colours(mesh, casts).into_iter().zip(casts);
+    all.filter(|(_, casts)| **casts).map(|(colour, _)| colour).collect()
+}

@@ -1,0 +1,119 @@
+//! What lies around and below the lines: the sky with what stands before it, the grid, and the rim with its letters.
+
+use super::chart::{SkyChart, direction};
+use super::regions::regions;
+use super::tones::SKY;
+use crate::export::figure::scale::{Rgb, mix};
+use crate::export::figure::svg::{Block, GRAY, INK, LetterStyle, TextAnchor, hex};
+use crate::view::SkyProjection;
+use glam::DVec3;
+
+impl SkyChart<'_> {
+    /// What lies below the lines: the sky, what stands before it, and the grid.
+    pub(super) fn ground(&self, block: &mut Block, colours: &[Rgb]) {
+        let name = self.name();
+        let shape = self.shape();
+        block.push(format_args!("<clipPath id=\"{name}-sky\">{shape}/></clipPath>"));
+        block.push(format_args!("{shape} fill=\"{}\"/>", hex(SKY)));
+        block.push(format_args!("<g id=\"{name}-obstacles\" clip-path=\"url(#{name}-sky)\">"));
+        for region in regions(self, colours) {
+            region.draw(block);
+        }
+        block.push(format_args!("</g>"));
+        self.grid(block);
+    }
+
+    /// Circles of altitude each 10°, and lines of azimuth each 30°.
+    fn grid(&self, block: &mut Block) {
+        const HEAVY: f64 = 0.5;
+        const LIGHT: f64 = 0.26;
+        let is_disc = self.raster.picture.projection == SkyProjection::Stereographic;
+        for altitude_deg in (10..90).step_by(10) {
+            // a disc's circles close
+            let around = (0..=360).step_by(2).map(|azimuth| direction(f64::from(azimuth), f64::from(altitude_deg)));
+            let around: Vec<DVec3> = around.collect();
+            let strength = if altitude_deg % 30 == 0 { HEAVY } else { LIGHT };
+            if is_disc {
+                let points: Vec<_> = around.iter().map(|to| self.place(*to)).collect();
+                self.stroke(block, &[points], 1.5, mix(SKY, GRAY, strength), None);
+            } else {
+                let [width, y] = [self.size()[0], self.place(around[0])[1]];
+                let points = vec![[self.corner[0], y], [self.corner[0] + width, y]];
+                self.stroke(block, &[points], 1.5, mix(SKY, GRAY, strength), None);
+            }
+        }
+        for azimuth_deg in (0..360).step_by(30) {
+            let strength = if azimuth_deg % 90 == 0 { HEAVY } else { LIGHT };
+            // twelve lines would meet in a blot
+            let top = if !is_disc || azimuth_deg % 90 == 0 { 89.999 } else { 80.0 };
+            let ends = [0.0, top].map(|altitude| self.place(direction(f64::from(azimuth_deg), altitude)));
+            self.stroke(block, &[ends.to_vec()], 1.5, mix(SKY, GRAY, strength), None);
+        }
+    }
+
+    /// The horizon, with the azimuths around it; at the strip's sides the altitudes.
+    pub(super) fn rim(&self, block: &mut Block) {
+        block.push(format_args!("{} fill=\"none\" stroke=\"{}\" stroke-width=\"4\"/>", self.shape(), hex(INK)));
+        match self.raster.picture.projection {
+            SkyProjection::Stereographic => self.disc_rim(block),
+            SkyProjection::Cylindrical { middle_rad } => self.strip_rim(block, middle_rad.to_degrees()),
+        }
+    }
+
+    fn disc_rim(&self, block: &mut Block) {
+        let radius = self.size()[0] / 2.0;
+        let middle = [self.corner[0] + radius, self.corner[1] + radius];
+        let at = |azimuth_deg: f64, away: f64| {
+            let (sin, cos) = azimuth_deg.to_radians().sin_cos();
+            [middle[0] + sin * away, middle[1] - cos * away]
+        };
+        for azimuth in (0..360).step_by(10) {
+            let length = if azimuth % 30 == 0 { 16.0 } else { 9.0 };
+            let ends = [0.0, length].map(|out| at(f64::from(azimuth), radius + out));
+            block.polyline(&ends, 2.0, INK);
+        }
+        for azimuth in (0..360).step_by(30) {
+            let [x, y] = at(f64::from(azimuth), radius + 46.0);
+            rim_label(block, [x, y], azimuth);
+        }
+    }
+
+    fn strip_rim(&self, block: &mut Block, middle_deg: f64) {
+        let ([x, y], [width, height]) = (self.corner, self.size());
+        for step in 0..=36 {
+            let azimuth = (middle_deg as i32 + 180 + 10 * step).rem_euclid(360);
+            let at = x + width * f64::from(step) / 36.0;
+            let length = if azimuth % 30 == 0 { 16.0 } else { 9.0 };
+            block.polyline(&[[at, y + height], [at, y + height + length]], 2.0, INK);
+            if azimuth % 30 == 0 {
+                rim_label(block, [at, y + height + 40.0], azimuth);
+            }
+        }
+        for altitude in (0..=90).step_by(10) {
+            let at = y + height * (1.0 - f64::from(altitude) / 90.0);
+            block.polyline(&[[x - 9.0, at], [x, at]], 2.0, INK);
+            let said = format!("{altitude}°");
+            block.text(x - 16.0, at + 10.0, TextAnchor::End, LetterStyle::FINE, &said);
+        }
+    }
+
+    /// What stands at each altitude in degrees, for labels on the disc: along the side that the sun never crosses.
+    pub(super) fn altitudes(&self, is_southern: bool) -> Vec<(String, [f64; 2])> {
+        if self.raster.picture.projection != SkyProjection::Stereographic {
+            return Vec::new();
+        }
+        let azimuth = if is_southern { 180.0 } else { 0.0 };
+        let said = |altitude: i32| (format!("{altitude}°"), self.place(direction(azimuth, f64::from(altitude))));
+        (10..80).step_by(10).map(said).collect()
+    }
+}
+
+/// The cardinal direction in bold, or degrees.
+fn rim_label(block: &mut Block, [x, y]: [f64; 2], azimuth: i32) {
+    let cardinal = [(0, "N"), (90, "E"), (180, "S"), (270, "W")].into_iter().find(|(at, _)| *at == azimuth);
+    let (style, said) = match cardinal {
+        Some((_, letter)) => (LetterStyle { size: 40.0, ..LetterStyle::HEAD }, letter.to_owned()),
+        None => (LetterStyle::FINE, format!("{azimuth}°")),
+    };
+    block.text(x, y + style.size * 0.36, TextAnchor::Middle, style, &said);
+}

@@ -1,0 +1,15 @@
+//! The sky of a point: two sun-path charts on a sheet, a stereographic one and a cylindrical one below it, with what
+//! stands before the sun's ways.
+
+mod chart;
+mod context;
+mod grid;
+mod marks;
+mod panel;
+mod regions;
+mod sheet;
+mod tones;
+mod ways;
+
+pub use context::{SkyContext, sky_colours, sky_pictures};
+pub use sheet::sky_sheet;
