@@ -7,11 +7,11 @@ use glam::{DVec2, DVec3};
 /// The most samples that a raster may have: 10,000 to a side.
 const MAX_SAMPLES: u64 = 100_000_000;
 
-/// Heights on a raster, row after row.
+/// Heights on a raster, row by row.
 pub(super) struct HeightGrid {
     pub columns: usize,
     pub rows: usize,
-    /// The heights in metres; NaN where there is none.
+    /// The heights in metres; NaN for missing ones.
     pub heights: Vec<f32>,
     /// The position of the first sample, in the file's coordinates.
     pub first: DVec2,
@@ -20,7 +20,7 @@ pub(super) struct HeightGrid {
 }
 
 impl HeightGrid {
-    /// How many samples a raster has, where that is not too many and not too few.
+    /// The number of samples of a raster, if it is within limits.
     pub(super) fn counted(columns: u64, rows: u64) -> Result<usize, ModelFault> {
         match columns.checked_mul(rows) {
             Some(count) if count <= MAX_SAMPLES => usize::try_from(count).map_err(|_| too_many(columns, rows)),
@@ -28,7 +28,7 @@ impl HeightGrid {
         }
     }
 
-    /// The height at a sample; NaN where there is none, and beyond the raster.
+    /// The height at a sample; NaN if it is missing or beyond the raster.
     pub(super) fn height(&self, column: usize, row: usize) -> f32 {
         if column >= self.columns {
             return f32::NAN;
@@ -36,17 +36,17 @@ impl HeightGrid {
         self.heights.get(row * self.columns + column).copied().unwrap_or(f32::NAN)
     }
 
-    /// Where a sample stands.
+    /// The position of a sample.
     pub(super) fn point(&self, column: usize, row: usize) -> DVec3 {
         let at = self.first + self.steps[0] * column as f64 + self.steps[1] * row as f64;
         at.extend(self.height(column, row).into())
     }
 
-    /// How far apart the samples are, for a message.
+    /// The spacing of the samples, for a message.
     pub(super) fn spacing(&self, is_of_map: bool) -> String {
         let [across, down] = self.steps.map(|step| step.length());
         let unit = match is_of_map {
-            // degrees, most likely
+            // probably degrees
             true if across.max(down) < 0.01 => "units of its map",
             _ => "m",
         };
@@ -54,23 +54,23 @@ impl HeightGrid {
         if across == down { format!("{across} {unit} apart") } else { format!("{across} × {down} {unit} apart") }
     }
 
-    /// Whether the rows run so that the triangles of [`super::thin`] must be turned over to look up.
+    /// Whether the triangles of [`super::thin`] must be flipped to face up, given the directions of the rows.
     pub(super) fn is_mirrored(&self) -> bool {
         self.steps[0].perp_dot(self.steps[1]) < 0.0
     }
 }
 
-/// Three digits are enough for people.
+/// Rounds to three digits, for messages.
 fn rounded(number: f64) -> f64 {
     let digits = (2.0 - number.abs().log10().floor()).clamp(0.0, 12.0) as i32;
     let power = 10_f64.powi(digits);
     (number * power).round() / power
 }
 
-/// That a raster is larger than anyone can study.
+/// The error for a raster that is too large.
 fn too_many(columns: u64, rows: u64) -> ModelFault {
     message![
-        format!("has {columns} × {rows} heights, and a terrain may have {MAX_SAMPLES}");
+        format!("has {columns} × {rows} heights, but a terrain may have at most {MAX_SAMPLES}");
         "cut it to the surroundings of the place in a GIS, or export it with larger cells"
     ]
     .into()

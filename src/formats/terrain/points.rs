@@ -1,4 +1,4 @@
-//! LAS and LAZ: measured points by their classes. Ground becomes terrain; buildings and vegetation are read on request.
+//! Reads LAS and LAZ: measured points by class. Ground becomes terrain; buildings and vegetation are read on request.
 
 use super::geokeys::MapKeys;
 use super::map::TerrainMap;
@@ -19,15 +19,15 @@ pub struct LasPoints;
 
 /// The most points that are read.
 const MAX_POINTS: u64 = 100_000_000;
-/// Points that are read in one go.
+/// The number of points that are read at once.
 const AT_ONCE: u64 = 1 << 20;
 
-/// Of points on the ground, and on key points of it (ASPRS LAS 1.4-R15, table 17).
+/// The classes of ground, and of its key points (ASPRS LAS 1.4-R15, table 17).
 const GROUND: [u8; 2] = [2, 8];
-/// Points that are errors, low or high.
+/// The classes of errors, low or high.
 const NOISE: [u8; 2] = [7, 18];
 
-/// Classes that can be asked, with their numbers.
+/// The classes that can be requested, with their numbers.
 const CLASSES: [(&str, &[u8]); POINT_CLASSES.len()] =
     [(POINT_CLASSES[0], &[6]), (POINT_CLASSES[1], &[3, 4, 5]), (POINT_CLASSES[2], &[17]), (POINT_CLASSES[3], &[9])];
 
@@ -76,13 +76,13 @@ impl Format for LasPoints {
             let is_asked = options.point_classes.iter().any(|asked| asked == class);
             if of_class.is_empty() {
                 if is_asked {
-                    let what = format!("has no points of the class {class}, for which `classes` asks");
+                    let what = format!("has no points of the class {class}, which `classes` requests");
                     notes.push(message![what; "classify its points, and export it again"]);
                 }
                 continue;
             }
             if !is_asked {
-                let why = format!("`classes = [\"{class}\"]` under [[model]] lets this class stand there");
+                let why = format!("`classes = [\"{class}\"]` under [[model]] reads this class");
                 left_out.push(LeftOut { what: format!("points of class {class}"), count: of_class.len() as u64, why });
                 continue;
             }
@@ -91,12 +91,12 @@ impl Format for LasPoints {
         }
         let other = points.others();
         if other > 0 {
-            let why = "neither ground nor of a class that can be asked".to_owned();
+            let why = "their class cannot be read".to_owned();
             left_out.push(LeftOut { what: "points of other classes".into(), count: other, why });
         }
         let mut model = of_metres(sheets, map, notes);
         for part in &mut model.parts {
-            // by the class alone, too
+            // also selectable by the class alone
             let class = part.name.rsplit('/').next().unwrap_or_default().to_owned();
             part.aliases.extend([class, name.clone()]);
         }
@@ -105,7 +105,7 @@ impl Format for LasPoints {
     }
 }
 
-/// Points by their classes, in the file's coordinates, heights in metres.
+/// Points by class, in the file's coordinates, heights in metres.
 struct ClassedPoints {
     by_class: BTreeMap<u8, Vec<DVec3>>,
 }
@@ -114,12 +114,12 @@ impl ClassedPoints {
     fn read(reader: &mut Reader, unit_m: f64) -> Result<ClassedPoints, ModelFault> {
         let count = reader.header().number_of_points();
         if count > MAX_POINTS {
-            let what = format!("has {count} points, and a model may have {MAX_POINTS}");
+            let what = format!("has {count} points, but a model may have at most {MAX_POINTS}");
             return Err(message![what; "cut it to the surroundings of the place, or thin its points"].into());
         }
         let mut by_class = BTreeMap::<u8, Vec<DVec3>>::new();
         let mut read = 0;
-        // what a header claims is not believed: memory is taken as points come
+        // the header's count is not trusted: memory is allocated as points are read
         while read < count {
             let points: PointData = reader.read_points(AT_ONCE.min(count - read)).map_err(damaged)?;
             if points.is_empty() {
@@ -146,7 +146,7 @@ impl ClassedPoints {
         classes.iter().filter_map(|class| self.by_class.get(class)).flatten().copied().collect()
     }
 
-    /// The points on the ground, and whether they are classified as such; else all points.
+    /// The ground points, and whether they are classified as such; otherwise all points.
     fn ground(&self) -> Result<(Vec<DVec3>, bool), ModelFault> {
         let ground = self.of_classes(&GROUND);
         if !ground.is_empty() {
@@ -155,21 +155,21 @@ impl ClassedPoints {
         let all: Vec<DVec3> = self.by_class.values().flatten().copied().collect();
         if all.is_empty() {
             return Err(message![
-                "has no points, or none but noise"; "export it with the points of the ground, of class 2"
+                "has no points except noise"; "export it with the points of the ground, of class 2"
             ]
             .into());
         }
         Ok((all, false))
     }
 
-    /// How many points are neither ground nor of a class that can be asked.
+    /// The number of points that are neither ground nor in a class that can be requested.
     fn others(&self) -> u64 {
         let is_asked = |class: &u8| GROUND.contains(class) || CLASSES.iter().any(|(_, of)| of.contains(class));
         self.by_class.iter().filter(|(class, _)| !is_asked(class)).map(|(_, points)| points.len() as u64).sum()
     }
 }
 
-/// Of which map the points are: as WKT says it where there is one, else GeoTIFF's keys.
+/// The map of the points: from WKT if there is any, otherwise from GeoTIFF's keys.
 fn keys(header: &Header) -> MapKeys {
     let record = |number: u16| {
         header.all_vlrs().find(|record| record.record_id == number && record.user_id == "LASF_Projection")
@@ -185,7 +185,7 @@ fn keys(header: &Header) -> MapKeys {
     }
 }
 
-/// Metres a unit of the heights, as WKT says it of its vertical part.
+/// The unit of the heights in metres, from the vertical part of a WKT.
 fn vertical_unit_m(wkt: &str) -> Option<f64> {
     let vertical = ["VERT_CS[", "VERTCRS["].iter().find_map(|mark| wkt.find(mark).map(|at| &wkt[at..]))?;
     // UNIT["metre",1 or LENGTHUNIT["metre",1
