@@ -23,7 +23,7 @@ fn notes(lines: &str) -> Vec<String> {
     said(&Site::load(&site, &Overrides::default()).expect("a site").notes)
 }
 
-const REST: &str = "is in map coordinates, write metres east and north of the place";
+const REST: &str = "is in map coordinates, write it in metres east and north of the place";
 
 #[test]
 fn plan_in_map_coordinates_is_told_before_the_study() {
@@ -33,7 +33,7 @@ fn plan_in_map_coordinates_is_told_before_the_study() {
     let site = Site::load(&path, &Overrides::default()).expect("a site");
     assert_eq!(site.notes.len(), 1, "{:?}", site.notes);
     let note = &said(&site.notes)[0];
-    assert!(note.starts_with("the middle of the plan lies 791 km from the place, maybe in another country;"), "{note}");
+    assert!(note.starts_with("the middle of the plan lies 791 km from the place;"), "{note}");
     assert!(note.contains("if `region` ") && note.ends_with(REST), "{note}");
     let mut heard = Vec::new();
     study::run(&site, &Wants::default(), &mut |event| {

@@ -32,5 +32,5 @@ fn without_its_reader_an_ifc_file_is_one_clear_error() {
     let path = folder.path().join("house.ifc");
     std::fs::write(&path, "ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('IFC4'));\nENDSEC;\n").expect("written");
     let error = gnomon::formats::read(&path, &Default::default()).expect_err("no reader").to_string();
-    assert!(error.contains("is IFC, and this gnomon was built without its reader"), "{error}");
+    assert!(error.contains("is IFC, but this gnomon was built without a reader for it"), "{error}");
 }

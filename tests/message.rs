@@ -85,11 +85,17 @@ fn site_files_have_keys_and_faces_have_words() {
     let days = |from: &str| days.replace("from = \"10:00\"", &format!("from = \"{from}\""));
     let said = |site: &str, asked: &Overrides| load(site, asked).expect_err("a mistake").in_words(&Options);
     let told = said(&days("2026-09-18T10:00"), &Overrides::default());
-    assert!(told.contains("[study] from: ") && told.ends_with("; leave it out, and name days with date"), "{told}");
+    assert!(
+        told.contains("[study] from: ") && told.ends_with("; leave the date out, and give days with date"),
+        "{told}"
+    );
     let from = Overrides { from: some("2026-09-18T10:00"), date: some("2026-09-18"), ..Overrides::default() };
     let from = Overrides { from_date: from.date, to_date: from.date, date: None, ..from };
     let told = said(&days("10:00"), &from);
-    assert!(told.starts_with("--from: ") && told.ends_with("; leave it out, and name days with --date"), "{told}");
+    assert!(
+        told.starts_with("--from: ") && told.ends_with("; leave the date out, and give days with --date"),
+        "{told}"
+    );
 }
 
 /// Notes go into files, too: in the words of whoever asked.

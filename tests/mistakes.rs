@@ -159,7 +159,7 @@ fn wrong_options_are_wrong_use() {
 fn values_that_cannot_be_read_name_their_option() {
     let folder = folder(SITE);
     for (command, option, value, word) in [
-        ("sun", "--place", "Vienna", "\"Vienna\" is no place"),
+        ("sun", "--place", "Vienna", "\"Vienna\" is not a place"),
         ("sun", "--place", "98,16", "latitude 98 is not between -90 and 90 degrees"),
         ("sun", "--date", "soon", "soon"),
         ("sun", "--from-date", "soon", "soon"),
@@ -170,7 +170,7 @@ fn values_that_cannot_be_read_name_their_option() {
         ("sun", "--at", "noonish", "noonish"),
         ("volumes", "--at", "noonish", "noonish"),
         ("shadow --at 12:00", "--date", "soon", "soon"),
-        ("profile", "--resolution", "soon", "\"soon\" is no resolution"),
+        ("profile", "--resolution", "soon", "\"soon\" is not a resolution"),
         ("profile", "--region", "1,2,3", "\"1,2,3\" is not 4 numbers with commas between them"),
         ("profile", "--region", "1,2,3,x", "write for example --region -300,-300,300,300"),
         ("probe", "--point", "1,2", "write for example --point 12,-3,4.5"),

@@ -121,7 +121,7 @@ fn a_scene_is_named_in_the_site_file() {
     let components = |key: &str| read(key).unwrap().mesh.components.len();
     assert_eq!((components(""), components("scene = 1"), components("scene = \"proposed\"")), (1, 2, 2));
     let notes = said(&read("").unwrap().notes);
-    assert!(notes[0].starts_with("tower.glb has 2 scenes, and \"existing\" (0) is read"), "{notes:?}");
+    assert!(notes[0].starts_with("tower.glb has 2 scenes, of which \"existing\" (0) is read"), "{notes:?}");
     assert!(read("scene = \"existing\"").unwrap().notes.is_empty());
     let told = read("scene = \"propsed\"").unwrap_err();
     for word in ["site.toml, [[model]] scene", "no scene \"propsed\"", "\"existing\" (0) and \"proposed\" (1)"] {

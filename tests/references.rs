@@ -75,7 +75,7 @@ fn the_reader_takes_of_each_key_what_the_reference_says() {
     assert!(!SITE_KEYS.is_empty());
     for key in SITE_KEYS {
         let reads = |line: &str| SiteFile::parse("site.toml", &with(key, line)).is_ok();
-        assert!(reads(key.example), "{} is no example of {} in {}", key.example, key.key, key.table);
+        assert!(reads(key.example), "{} is not an example of {} in {}", key.example, key.key, key.table);
         assert!(key.example.starts_with(&format!("{} = ", key.key)), "{}", key.example);
         let (good, bad) = samples(key.value);
         for value in good {
@@ -92,6 +92,6 @@ fn every_key_is_explained() {
     for key in SITE_KEYS {
         let is_explained = !key.default.is_empty() && !key.meaning.is_empty();
         assert!(is_explained, "{} of {} has no default or no meaning", key.key, key.table);
-        assert!(SITE_TABLES.iter().any(|(table, ..)| *table == key.table), "{} is no table", key.table);
+        assert!(SITE_TABLES.iter().any(|(table, ..)| *table == key.table), "{} is not a table", key.table);
     }
 }

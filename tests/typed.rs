@@ -173,9 +173,9 @@ fn field_of_one_angle_takes_both() {
         ("98", Latitude, "latitude 98 is not between -90 and 90 degrees"),
         ("98, 16", Latitude, "latitude 98 is not between -90 and 90 degrees"),
         ("-181", Longitude, "longitude -181 is not between -180 and 180 degrees"),
-        ("north", Latitude, "\"north\" is no latitude; write degrees, for example 48.2082, 48,2082 or 48°12'30\" N"),
-        ("16 E", Latitude, "\"16 E\" is no latitude; write degrees, for example 48.2082, 48,2082 or 48°12'30\" N"),
-        ("", Longitude, "\"\" is no longitude; write degrees, for example 16.3738, 16,3738 or 16°22'26\" E"),
+        ("north", Latitude, "\"north\" is not a latitude; write degrees, for example 48.2082, 48,2082 or 48°12'30\" N"),
+        ("16 E", Latitude, "\"16 E\" is not a latitude; write degrees, for example 48.2082, 48,2082 or 48°12'30\" N"),
+        ("", Longitude, "\"\" is not a longitude; write degrees, for example 16.3738, 16,3738 or 16°22'26\" E"),
     ] {
         assert_eq!(degrees(text, axis).unwrap_err().to_string(), told);
     }

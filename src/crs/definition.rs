@@ -24,7 +24,7 @@ pub(super) fn shortened(text: &str) -> String {
 
 pub(super) fn unknown(text: &str) -> Message {
     message![
-        format!("{} is no reference system that Gnomon knows", shortened(text));
+        format!("{} is not a reference system that Gnomon knows", shortened(text));
         "write its number in the EPSG dataset, for example \"EPSG:25832\""
     ]
 }

@@ -132,7 +132,7 @@ impl Worded for ExportError {
                 "choose another name or folder"
             ],
             ExportError::NoFileName { path } => message![
-                format!("cannot write {}: that is no file", path.display());
+                format!("cannot write {}: that is not a file", path.display());
                 "give the name of a file"
             ],
             ExportError::LargeGlb { size } => message![

@@ -1,31 +1,33 @@
-//! Zip archives of models: which file in one is the model, and its bytes.
+//! Zip archives of models: finds the model in an archive, and unpacks it.
 //!
-//! Nothing is unpacked to a disk, no name in an archive is used as a path, and what an entry becomes is bounded: the archive
-//! says its size, and is not believed.
+//! Nothing is unpacked to disk, no name in an archive is used as a path, and the unpacked size is limited, since the
+//! sizes that an archive states are not trusted.
 
 use super::ModelFault;
 use crate::message::message;
 use std::io::Read as _;
 
-/// How many times its size an archive's entry may become. A model's text becomes 5 to 20 times smaller; a bomb a thousand times.
+/// The greatest ratio by which an entry may grow. Text of a model is compressed 5 to 20 times, a zip bomb a thousand
+/// times.
 const MAX_RATIO: u64 = 100;
 
-/// What may be in a tiny archive beyond that.
+/// The bytes that an entry of any archive may have beyond that ratio.
 const FREE_BYTES: u64 = 1 << 20;
 
-/// Bytes of the record at an archive's end, of one in its directory, and of the one before an entry's data; each without
-/// what is of variable length.
+/// The fixed bytes of the record at an archive's end, of an entry in its directory, and of the header before an entry's
+/// data.
 const END_BYTES: usize = 22;
 const LISTED_BYTES: usize = 46;
 const LOCAL_BYTES: usize = 30;
 
-/// An archive's last record lies at most a comment of this length before the end.
+/// The longest comment after an archive's last record.
 const MAX_COMMENT: usize = u16::MAX as usize;
 
-/// What every archive with something in it begins with.
+/// The first bytes of every archive that is not empty.
 const LOCAL_MARK: &[u8] = b"PK\x03\x04";
 
-/// Whether a file begins as an archive whose first entry's name ends so, in small letters: others' archives begin alike.
+/// Whether a file begins as an archive whose first entry has this ending, in lower case. Other archives begin in the
+/// same way.
 pub(super) fn begins_with(head: &[u8], ending: &str) -> bool {
     let Some(entry) = head.strip_prefix(LOCAL_MARK) else { return false };
     let length = entry.get(22..24).and_then(|bytes| bytes.try_into().ok()).map(u16::from_le_bytes);
@@ -33,16 +35,16 @@ pub(super) fn begins_with(head: &[u8], ending: &str) -> bool {
     name.is_some_and(|name| name.to_ascii_lowercase().ends_with(ending.as_bytes()))
 }
 
-/// Whether bytes are an archive's.
+/// Whether bytes are a zip archive.
 pub(super) fn is_archive(bytes: &[u8]) -> bool {
     bytes.starts_with(b"PK")
 }
 
-/// An archive of models whose names end alike.
+/// An archive of models with the same ending.
 pub(super) struct ModelArchive<'a> {
     bytes: &'a [u8],
     entries: Vec<ZipEntry>,
-    /// Of the models' names, in small letters and with the dot.
+    /// The ending of the models' names, lower-case and with the dot.
     ending: &'static str,
 }
 
@@ -54,13 +56,13 @@ impl<'a> ModelArchive<'a> {
         }
     }
 
-    /// The names of all models in it, in its order.
+    /// The names of all models in it, in order.
     pub(super) fn models(&self) -> impl Iterator<Item = &str> {
         let names = self.entries.iter().map(|entry| entry.name.as_str());
         names.filter(|name| name.to_lowercase().ends_with(self.ending))
     }
 
-    /// The bytes of the entry of that name, of which there may be so many; none where there is no such entry.
+    /// The unpacked bytes of the entry of that name, at most `most_bytes`; `None` without such an entry.
     pub(super) fn unpacked(&self, name: &str, most_bytes: u64) -> Result<Option<Vec<u8>>, ModelFault> {
         let entry = self.entries.iter().find(|entry| entry.name == name);
         entry.map(|entry| unpacked(self.bytes, entry, most_bytes, self.ending)).transpose()
@@ -80,7 +82,7 @@ fn number32(bytes: &[u8], at: usize) -> Option<u32> {
     bytes.get(at..at + 4)?.try_into().ok().map(u32::from_le_bytes)
 }
 
-/// What an archive's directory says of an entry.
+/// An entry in an archive's directory.
 struct ZipEntry {
     name: String,
     is_encrypted: bool,
@@ -91,7 +93,7 @@ struct ZipEntry {
     at: usize,
 }
 
-/// The entries of an archive, by its directory.
+/// The entries in an archive's directory.
 fn entries(bytes: &[u8]) -> Option<Vec<ZipEntry>> {
     let last = bytes.len().checked_sub(END_BYTES)?;
     let end = (last.saturating_sub(MAX_COMMENT)..=last).rev().find(|&at| bytes[at..].starts_with(b"PK\x05\x06"))?;
@@ -119,7 +121,7 @@ fn entries(bytes: &[u8]) -> Option<Vec<ZipEntry>> {
     Some(found)
 }
 
-/// What an entry holds, within bounds that do not trust what it says of itself.
+/// Unpacks an entry, within limits that do not depend on the sizes that it states.
 fn unpacked(bytes: &[u8], entry: &ZipEntry, most_bytes: u64, ending: &str) -> Result<Vec<u8>, ModelFault> {
     let broken = |what: &str| broken(ending, what);
     if entry.is_encrypted {
@@ -144,7 +146,7 @@ fn unpacked(bytes: &[u8], entry: &ZipEntry, most_bytes: u64, ending: &str) -> Re
     match entry.method {
         0 => text.extend_from_slice(data),
         8 => {
-            // One byte more than is said shows that the entry lies.
+            // one byte more than stated shows that the statement is false
             let unpacking = flate2::read::DeflateDecoder::new(data).take(entry.size + 1).read_to_end(&mut text);
             unpacking.map_err(|error| broken(&error.to_string()))?;
         }
@@ -156,7 +158,7 @@ fn unpacked(bytes: &[u8], entry: &ZipEntry, most_bytes: u64, ending: &str) -> Re
     let mut checksum = flate2::Crc::new();
     checksum.update(&text);
     if text.len() as u64 != entry.size || checksum.sum() != entry.checksum {
-        return Err(broken("an entry is not what the directory says of it"));
+        return Err(broken("an entry differs from what the directory says"));
     }
     Ok(text)
 }

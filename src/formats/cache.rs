@@ -1,9 +1,8 @@
 //! The cache of models that were read: a file that takes long to read opens at once the second time.
 //!
-//! An entry is a file in a folder beside the user's other caches. Its name is a hash of everything that the reading
-//! depends on: the content of the file and of those that it names, the format, the request, and the program's version.
-//! Entries are written whole and have a checksum; damaged ones are removed, and when there are too many the oldest are
-//! removed.
+//! An entry is a file in a folder among the user's caches. Its name is a hash of everything that affects the reading:
+//! the contents of the file and of those that it refers to, the format, the request, and the program's version. Entries
+//! are written whole and have a checksum. Damaged ones are removed, and the oldest ones if there are too many.
 
 use super::{Format, Model, ReadOptions, encoded};
 use siphasher::sip128::{Hasher128, SipHasher13};
@@ -12,7 +11,7 @@ use std::hash::{Hash, Hasher};
 use std::io::{self, BufReader, BufWriter, Read};
 use std::path::{Path, PathBuf};
 
-/// How the names of entries end, and of those that are being written.
+/// The endings of the names of whole entries, and of those being written.
 const WHOLE: &str = "model";
 const PARTIAL: &str = "part";
 
@@ -29,7 +28,7 @@ impl ModelCache {
     /// The default size of all entries, bytes: 2 GiB.
     pub const MOST_BYTES: u64 = 2 << 30;
 
-    /// The user's cache, if the system says where caches lie.
+    /// The user's cache, if the system has a folder for caches.
     pub fn of_user() -> Option<ModelCache> {
         let folder = dirs::cache_dir()?.join("gnomon").join("models");
         Some(ModelCache { folder, most_bytes: Self::MOST_BYTES })
@@ -38,21 +37,21 @@ impl ModelCache {
     /// The entry of a file in its present state.
     ///
     /// # Errors
-    /// Where the file cannot be read.
+    /// A file that cannot be read.
     pub fn entry(&self, format: &dyn Format, path: &Path, options: &ReadOptions) -> io::Result<CacheEntry<'_>> {
         let mut number = SipHasher13::new();
         (env!("CARGO_PKG_VERSION"), encoded::VERSION, format.name()).hash(&mut number);
         serde_json::to_string(options)?.hash(&mut number);
         add_file(&mut number, path)?;
         for named in format.named_by(path) {
-            // whoever reads a file that is not there reports it
+            // a missing file is reported when it is read
             let is_there = add_file(&mut number, &named).is_ok();
             is_there.hash(&mut number);
         }
         Ok(CacheEntry { cache: self, name: format!("{:032x}", number.finish128().as_u128()) })
     }
 
-    /// All entries, whole and partial: how old each is, its bytes and where it lies.
+    /// The files of all entries, whole and partial: their age, size and path.
     fn files(&self) -> Vec<(std::time::SystemTime, u64, PathBuf)> {
         let Ok(entries) = self.folder.read_dir() else { return Vec::new() };
         let is_ours = |path: &PathBuf| path.extension().is_some_and(|ending| ending == WHOLE || ending == PARTIAL);
@@ -63,7 +62,7 @@ impl ModelCache {
         entries.filter_map(Result::ok).filter_map(told).collect()
     }
 
-    /// Removes the oldest entries until all together have room, but not the newest one.
+    /// Removes the oldest entries until the total is within the limit, but not the newest one.
     fn make_room(&self, newest: &Path) {
         let mut files = self.files();
         files.sort();
@@ -73,7 +72,7 @@ impl ModelCache {
                 break;
             }
             if path != newest {
-                // one that another process has removed is gone as well
+                // another process may have removed it
                 let _ = fs::remove_file(path);
                 all = all.saturating_sub(bytes);
             }
@@ -81,7 +80,7 @@ impl ModelCache {
     }
 }
 
-/// Adds a file's length and content.
+/// Hashes a file's length and content.
 fn add_file(number: &mut SipHasher13, path: &Path) -> io::Result<()> {
     let mut file = File::open(path)?;
     let (mut bytes, mut length) = (vec![0; 1 << 18], 0_u64);
@@ -124,16 +123,16 @@ impl CacheEntry<'_> {
         }
     }
 
-    /// Writes a model into the cache. A model that is larger than all entries may be together is not written.
+    /// Writes a model into the cache, unless it is larger than the whole cache may be.
     ///
     /// # Errors
-    /// What the file system refuses.
+    /// Errors of the file system.
     pub fn keep(&self, model: &Model) -> io::Result<()> {
         if encoded::raw_bytes(model) > self.cache.most_bytes {
             return Ok(());
         }
         fs::create_dir_all(&self.cache.folder)?;
-        // two processes that read the same file write the same bytes, each its own
+        // two processes that read the same file write the same bytes, each to its own file
         let beside = self.cache.folder.join(format!("{}.{}.{PARTIAL}", self.name, std::process::id()));
         let written = File::create(&beside)
             .and_then(|file| encoded::write(Ok(model), &mut BufWriter::with_capacity(1 << 20, file)))
@@ -144,7 +143,7 @@ impl CacheEntry<'_> {
         written
     }
 
-    /// Puts what is whole in its place, and makes room for it.
+    /// Renames a complete file to its entry, and makes room for it.
     fn put(&self, beside: &Path) -> io::Result<()> {
         if beside.metadata()?.len() > self.cache.most_bytes {
             return fs::remove_file(beside);

@@ -1,9 +1,9 @@
-//! Reads a model in a process of its own. The same program, started again, reads the file and writes the model in the
-//! form of `super::encoded`.
+//! Reads a model in a child process: the same program, started again, reads the file and writes the model in the form
+//! of `super::encoded`.
 //!
-//! Readers from other libraries may hang, crash, end their process or take all memory. In a process of their own each
-//! of these is one clear error. The parent watches time and memory, and ends the child; if the parent itself ends, the
-//! child's standard input closes, and the child ends, too.
+//! Readers from other libraries may hang, crash, exit or take all memory. In a child process each of these becomes one
+//! clear error. The parent watches time and memory, and ends the child. If the parent itself ends, the child's standard
+//! input closes, and the child ends, too.
 
 use super::encoded::{self, EncodingError};
 use super::{Model, ModelFault, ReadLimits, ReadOptions};
@@ -17,16 +17,16 @@ use std::thread;
 use std::time::{Duration, Instant};
 use sysinfo::{Pid, ProcessRefreshKind, ProcessesToUpdate, System};
 
-/// The subcommand of the program that reads a model and writes it to standard output. It is hidden in the help.
+/// The subcommand that reads a model and writes it to standard output. It is hidden in the help.
 pub const SUBCOMMAND: &str = "read-model";
 
-/// How often time, memory and the wish to end are looked at.
+/// The interval at which time, memory and cancellation are checked.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// Answers a request, in the process that was started for it.
+/// Answers a request, in the child process.
 ///
 /// # Errors
-/// What is no request, and what the writer says.
+/// A malformed request, or an error of the writer.
 pub fn answer(path: &Path, request: &str, out: &mut impl Write) -> io::Result<()> {
     let options: ReadOptions = serde_json::from_str(request)?;
     match super::read(path, &options) {
@@ -41,17 +41,17 @@ pub fn answer(path: &Path, request: &str, out: &mut impl Write) -> io::Result<()
     }
 }
 
-/// Why a process was ended.
+/// Why the child was ended.
 enum EndCause {
     Wish,
     Time,
     Memory(u64),
 }
 
-/// Reads a file in a process of its own.
+/// Reads a file in a child process.
 ///
 /// # Errors
-/// What that says is wrong with the file; that it took too much, or broke off.
+/// Errors in the file; or that the child exceeded a limit or ended early.
 pub(super) fn read(
     program: &Path,
     limits: ReadLimits,
@@ -64,11 +64,11 @@ pub(super) fn read(
         ModelFault::from(message![what; "close other programs, or start Gnomon again"])
     };
     let mut process = EndingProcess(start(program, path).map_err(unstarted)?);
-    // kept open until the end: where it is closed the process ends
+    // stays open while the child runs: the child ends when it is closed
     let mut ask = process.0.stdin.take();
     let request = serde_json::to_string(options);
     if let (Some(ask), Ok(request)) = (&mut ask, request) {
-        // one that ends at once is told below
+        // a child that ended already is reported below
         let _ = writeln!(ask, "{request}").and_then(|()| ask.flush());
     }
     let (Some(out), Some(told)) = (process.0.stdout.take(), process.0.stderr.take()) else {
@@ -76,7 +76,7 @@ pub(super) fn read(
     };
     let (tell, outcome) = mpsc::channel();
     thread::spawn(move || {
-        // who ended the process listens no more
+        // if the child was ended, nobody receives this
         let _ = tell.send(encoded::read(&mut BufReader::with_capacity(1 << 20, out)));
     });
     let (tell, words) = mpsc::channel();
@@ -91,7 +91,7 @@ pub(super) fn read(
         Ok(Err(error)) => {
             let words = words.recv_timeout(Duration::from_secs(1)).unwrap_or_default();
             let fault = broken_off(&mut process, &error, &words);
-            // on a terminal Ctrl-C reaches both processes, and that one may end first
+            // Ctrl-C in a terminal reaches both processes, and the child may end first
             if is_given_up.load(Ordering::Relaxed) { Err(ModelFault::GivenUp) } else { Err(fault.into()) }
         }
     }
@@ -111,7 +111,7 @@ fn start(program: &Path, path: &Path) -> io::Result<Child> {
     command.spawn()
 }
 
-/// Waits for what a process writes; or says why it has to end.
+/// Waits for the child's answer, or returns why the child must be ended.
 fn watched(
     process: &mut EndingProcess,
     limits: ReadLimits,
@@ -124,7 +124,7 @@ fn watched(
         match outcome.recv_timeout(LOOK) {
             Ok(outcome) => return Ok(outcome),
             Err(RecvTimeoutError::Disconnected) => {
-                return Ok(Err(EncodingError::Damaged("what it gives cannot be taken")));
+                return Ok(Err(EncodingError::Damaged("its answer cannot be received")));
             }
             Err(RecvTimeoutError::Timeout) => {}
         }
@@ -140,26 +140,26 @@ fn watched(
     }
 }
 
-/// A process that ends with whoever has started it.
+/// A child process that is ended when this is dropped.
 struct EndingProcess(Child);
 
 impl Drop for EndingProcess {
     fn drop(&mut self) {
-        // it may have ended by itself
+        // it may have ended already
         let _ = self.0.kill();
         let _ = self.0.wait();
     }
 }
 
-/// How much memory a process has.
+/// Measures the memory of a process.
 struct MemoryWatch {
-    /// None on a system that tells nothing of processes.
+    /// `None` on systems that do not report processes.
     system: Option<System>,
     process: Pid,
 }
 
 impl MemoryWatch {
-    /// Nothing where the system does not say it.
+    /// Returns 0 if the system does not report it.
     fn bytes(&mut self) -> u64 {
         let Some(system) = &mut self.system else { return 0 };
         let kind = ProcessRefreshKind::nothing().with_memory();
@@ -168,11 +168,11 @@ impl MemoryWatch {
     }
 }
 
-/// The last of what a process says of itself: a line of the program's own, or a panic's message. All else is chatter of
-/// whatever it was built with.
+/// The last thing a process says about itself: a line of the program's own, or a panic's message. Other output comes
+/// from the libraries.
 fn last_words(told: impl Read) -> String {
     const MOST_LETTERS: usize = 200;
-    /// A line without an end is none.
+    /// Longer lines are cut.
     const LONGEST: u64 = 1 << 16;
     let (mut words, mut told, mut is_panic) = (String::new(), BufReader::new(told), false);
     loop {
@@ -189,7 +189,7 @@ fn last_words(told: impl Read) -> String {
         if is_panic || line.starts_with("gnomon:") {
             words = line.chars().take(MOST_LETTERS).collect();
         }
-        // its message is in the next line
+        // the message of the panic is in the next line
         is_panic = line.starts_with("thread ") && line.contains(" panicked at ");
     }
 }
@@ -200,8 +200,8 @@ fn too_long(time: Duration) -> Message {
     let secs = time.as_secs_f64();
     let time = if secs >= 60.0 { format!("{:.0} min", secs / 60.0) } else { format!("{secs:.0} s") };
     message![
-        format!("takes longer to read than {time}, and was given up");
-        SMALLER, Piece::Where(Field::ReadTime, pieces![", or allow it more with ", (Field::ReadTime, "1h")])
+        format!("takes longer to read than {time}, and reading was stopped");
+        SMALLER, Piece::Where(Field::ReadTime, pieces![", or allow more with ", (Field::ReadTime, "1h")])
     ]
 }
 
@@ -213,8 +213,8 @@ fn too_large(bytes: u64) -> Message {
         _ => format!("{:.0} KiB", (mib * 1024.0).ceil()),
     };
     message![
-        format!("takes more memory to read than {most}, and was given up");
-        SMALLER, Piece::Where(Field::ReadMemory, pieces![", or allow it more with ", (Field::ReadMemory, "64GiB")])
+        format!("takes more memory to read than {most}, and reading was stopped");
+        SMALLER, Piece::Where(Field::ReadMemory, pieces![", or allow more with ", (Field::ReadMemory, "64GiB")])
     ]
 }
 
@@ -226,13 +226,13 @@ fn broken_off(process: &mut EndingProcess, error: &EncodingError, words: &str) -
         Err(error) => (error.to_string(), false),
     };
     let why = match (words, error) {
-        // how it ended says why it gave no more
+        // its exit status tells why its answer is incomplete
         ("", EncodingError::Cut(_)) if !is_done => String::new(),
         ("", error) => format!(": {error}"),
         (words, _) => format!(": {words}"),
     };
     message![
-        format!("cannot be read: its reader broke off ({ended}){why}");
+        format!("cannot be read: its reader failed ({ended}){why}");
         "export it again, from another program or in another format, such as glTF"
     ]
 }

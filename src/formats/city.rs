@@ -1,8 +1,8 @@
-//! The part that CityJSON and CityGML share: city objects → parts, one for each object and kind of surface.
+//! Builds parts from city objects, for CityJSON and CityGML: one part for each object and kind of surface.
 //!
-//! A roof can be selected without its walls, so an object's semantic surfaces are parts of their own: three or four per
-//! building, some 20,000 in a tile of 5,000 buildings. One LoD of each object is taken, and parts of a building replace
-//! the building's own geometry.
+//! A roof can be selected without its walls, so each kind of an object's semantic surfaces becomes a part: three or
+//! four per building, some 20,000 in a tile of 5,000 buildings. One level of detail of each object is used, and the
+//! parts of a building replace its own geometry.
 
 use super::face_cutter::FaceCutter;
 use super::left_out::{LeftOutTally, counted, label};
@@ -11,23 +11,23 @@ use crate::mesh::{CornerPrecision, Part};
 use crate::message::message;
 use glam::DVec3;
 
-/// Kinds of surface of one object that are told apart; extensions may name any number.
+/// The most kinds of surface of one object that become parts of their own; extensions may add any number.
 const MOST_SURFACE_KINDS: usize = 40;
 
-/// A surface that a model closes its openings with, and that is not built.
+/// A virtual surface that closes an opening.
 const CLOSURE: &str = "ClosureSurface";
 
-/// What an object is.
+/// An object's names.
 pub(super) struct CityObjectName {
     /// `Building`.
     pub kind: String,
     /// The file's id of the object; empty if it has none.
     pub id: String,
-    /// Other names by which it can be selected: the object that it is a part of, and its name for people.
+    /// Other names that select it: the object that it is a part of, and its usual name.
     pub others: Vec<String>,
 }
 
-/// How good a geometry of an object is: the best is what stands there.
+/// The quality of an object's geometry; the best one is used.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub(super) struct Rank {
     /// Whether it is closed.
@@ -47,21 +47,21 @@ impl Rank {
 pub(super) struct CityBuilder {
     parts: Vec<Part>,
     kinds: Vec<PartKind>,
-    /// What was left out.
+    /// What was left out so far.
     pub tally: LeftOutTally,
     cutter: FaceCutter,
     triangles: u64,
     outlines: u64,
     unnamed: u64,
-    /// The open object, and its parts so far, each with the kind of its surfaces.
+    /// The current object, and its parts so far, each with its kind of surface.
     open: Option<(CityObjectName, PartKind)>,
     surfaces: Vec<(String, Part)>,
-    /// The step of the file's numbers, where it is so coarse that a note says it.
+    /// The step of the file's numbers, if it is coarse enough for a note.
     step: Option<f64>,
 }
 
 impl CityBuilder {
-    /// `step` is that of the file's numbers; where it is finer than `told_step`, there is no note.
+    /// `step` is that of the file's numbers. There is no note if it is finer than `told_step`.
     pub(super) fn new(step: Option<f64>, told_step: f64) -> Self {
         Self {
             parts: Vec::new(),
@@ -85,7 +85,8 @@ impl CityBuilder {
         self.open = Some((name, kind));
     }
 
-    /// A face of the object, with the kind of its surface where the file says it. `is_turned` where it is seen from behind.
+    /// Adds a face of the object, with the kind of its surface if the file gives one. `is_turned` if it is seen from
+    /// behind.
     pub(super) fn face(
         &mut self,
         surface: &str,
@@ -162,7 +163,7 @@ impl CityBuilder {
         let mut notes: Vec<_> = self.cutter.crossing_note().into_iter().collect();
         if self.outlines > 0 {
             notes.push(message![
-                format!("has {} of which there is a flat outline alone (LoD 0), which lies there as a sheet", counted(self.outlines, "object"));
+                format!("has {} with only a flat outline (LoD 0), which is read as a sheet", counted(self.outlines, "object"));
                 "export LoD 1 or higher, or the outlines with heights as GeoJSON"
             ]);
         }
@@ -180,8 +181,8 @@ impl CityBuilder {
     }
 }
 
-/// What an object does where nobody says it. Vegetation and water that are given as solids: a wood is a block that casts, a
-/// lake is not.
+/// The default role of an object. For vegetation and water it depends on whether they are solids: a wood is a block
+/// that casts, a lake is not.
 fn kind_of(kind: &str, is_solid: bool) -> PartKind {
     const COVERS: [&str; 19] = [
         "WaterBody",
@@ -212,7 +213,7 @@ fn kind_of(kind: &str, is_solid: bool) -> PartKind {
     }
 }
 
-/// Whether objects of this kind lie inside of others, which enclose them already.
+/// Whether objects of this kind lie inside others that enclose them.
 pub(super) fn is_inside(kind: &str) -> bool {
     const INSIDE: [&str; 13] = [
         "BuildingRoom",

@@ -1,15 +1,15 @@
-//! Files that only go with another one: what they hold, and which file is to be opened instead.
+//! Files that only accompany another one: what they contain, and which file to open instead.
 
 use super::whole::sibling;
 use crate::message::{Message, message};
 use std::path::Path;
 
-/// A kind of such files.
+/// A kind of accompanying file.
 struct CompanionKind {
     ending: &'static str,
-    /// What it holds.
+    /// Its contents.
     holds: &'static str,
-    /// How the names end of files that it may go with, the likeliest first.
+    /// The endings of the files that it may accompany, the likeliest first.
     of: &'static [&'static str],
 }
 
@@ -30,10 +30,10 @@ fn kind_of(path: &Path) -> Option<&'static CompanionKind> {
     KINDS.iter().find(|kind| ending.eq_ignore_ascii_case(kind.ending))
 }
 
-/// The error for a file that goes with another one and is no model itself.
+/// The error for opening an accompanying file.
 pub(super) fn refusal(path: &Path) -> Option<Message> {
     let kind = kind_of(path)?;
-    let what = format!("holds {}, and no shapes", kind.holds);
+    let what = format!("contains {}, but no shapes", kind.holds);
     let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let hint = match kind.of.iter().find_map(|ending| sibling(path, ending)) {
         Some(main) => format!("open {}, which lies beside it", name(&main)),
@@ -45,7 +45,7 @@ pub(super) fn refusal(path: &Path) -> Option<Message> {
     Some(message![what; hint])
 }
 
-/// Whether a file goes with another one of these.
+/// Whether a file accompanies one of these.
 #[cfg(feature = "desktop")]
 pub(crate) fn goes_with_one_of(path: &Path, others: &[impl AsRef<Path>]) -> bool {
     kind_of(path).is_some_and(|kind| {

@@ -5,13 +5,13 @@
 pub(super) struct NamedSystem {
     /// `EPSG:25832`, or the file's own text if it contains no code.
     pub crs: String,
-    /// Whether the name asks for the order of axes that the system's authority defines, as the OGC's URNs and URLs do.
+    /// Whether the name asks for the axis order of the system's authority, as the OGC's URNs and URLs do.
     pub is_official: bool,
 }
 
-/// What a text names, whatever form it has: `EPSG:25832`, `urn:ogc:def:crs:EPSG::25832`,
-/// `https://www.opengis.net/def/crs/EPSG/0/7415`, `urn:adv:crs:ETRS89_UTM32*DE_DHHN2016_NH`. Of a compound system it is the
-/// horizontal one, which comes first.
+/// Reads the name of a system in any of its forms: `EPSG:25832`, `urn:ogc:def:crs:EPSG::25832`,
+/// `https://www.opengis.net/def/crs/EPSG/0/7415`, `urn:adv:crs:ETRS89_UTM32*DE_DHHN2016_NH`. For a compound system it
+/// returns the horizontal one, which comes first.
 pub(super) fn named_system(text: &str) -> Option<NamedSystem> {
     let text = text.trim();
     let lower = text.to_ascii_lowercase();
@@ -22,14 +22,14 @@ pub(super) fn named_system(text: &str) -> Option<NamedSystem> {
         return Some(NamedSystem { crs: format!("EPSG:{code}"), is_official });
     }
     if lower.contains("crs84") {
-        // longitude first, whoever asks
+        // longitude first by definition
         return Some(NamedSystem { crs: "EPSG:4326".into(), is_official: false });
     }
     let crs = surveyed_in_germany(&lower).map_or_else(|| text.to_owned(), |code| format!("EPSG:{code}"));
     (!text.is_empty()).then_some(NamedSystem { crs, is_official: false })
 }
 
-/// The first code of the EPSG in a text: the last number behind that word, before anything else begins.
+/// The first EPSG code in a text: the last number after that word, before anything else begins.
 fn epsg_in(lower: &str) -> Option<u32> {
     let behind = &lower[lower.find("epsg")? + "epsg".len()..];
     let own = behind.split([',', '&', '+', ' ', ';']).next()?;
@@ -51,7 +51,7 @@ fn surveyed_in_germany(lower: &str) -> Option<u32> {
     }
 }
 
-/// Whether the official order of a system's axes is north (or latitude) before east.
+/// Whether the official axis order of a system is north (or latitude) before east.
 pub(super) fn is_north_first(crs: &str) -> bool {
     let Some(code) = crs.strip_prefix("EPSG:").and_then(|code| code.parse::<u32>().ok()) else {
         return false;
@@ -60,8 +60,8 @@ pub(super) fn is_north_first(crs: &str) -> bool {
     NORTH_FIRST.get(before).is_some_and(|&(first, _)| first <= code)
 }
 
-/// Codes of the EPSG, from and to, between which all systems that there are have their northing or latitude first and their
-/// easting or longitude second; compound ones by their horizontal part. Of the EPSG's dataset 11.022, as PROJ 9.5.1 has it.
+/// Ranges of EPSG codes, first and last, in which all existing systems have northing or latitude first; compound
+/// systems count by their horizontal part. From the EPSG dataset 11.022 in PROJ 9.5.1.
 #[rustfmt::skip]
 const NORTH_FIRST: &[(u32, u32)] = &[
     (2036, 2036), (2044, 2045), (2081, 2083), (2085, 2086), (2091, 2093), (2096, 2098), (2105, 2132), (2166, 2180),

@@ -1,9 +1,9 @@
-//! A model as plain bytes: what a reading process passes to its parent, and what the cache keeps.
+//! A model as plain bytes, for the pipe from a reading process and for the cache.
 //!
-//! The bytes are: a mark, a version and the length of the JSON that follows; the JSON, with all names, the meaning of
-//! the coordinates, what was left out and the notes; then for each part the corners as `f64` and the triangles as
-//! `u32`, little-endian; and a checksum of everything. Neither a process nor a disk is trusted: every length is
-//! checked, and memory is taken only as the bytes arrive.
+//! The bytes are a magic number, a version, and the length of the JSON that follows; the JSON, with all names, the
+//! meaning of the coordinates, what was left out, and the notes; then for each part the corners as `f64` and the
+//! triangles as `u32`, little-endian; and a checksum of everything. Neither the process nor the disk is trusted: every
+//! length is checked, and memory is allocated only as the bytes arrive.
 
 use super::exact::{self, option as exact_option};
 use super::{Anchor, AnchorPoint, Coordinates, FORMATS, LeftOut, MAX_COMPONENTS, MAX_TRIANGLES, Model, PartKind};
@@ -20,32 +20,32 @@ use std::sync::Mutex;
 
 const MARK: [u8; 8] = *b"gnomonMD";
 
-/// Of the bytes, and of what readers make of files: what an older program kept is not used by a newer one that reads
-/// otherwise.
+/// The version of the bytes and of the readers. It changes when readers read files differently, so that older entries
+/// of the cache are not used.
 pub(super) const VERSION: u32 = 2;
 
-/// The longest JSON: a thousand bytes a component.
+/// The longest JSON: a thousand bytes per component.
 const MOST_JSON: u64 = 1 << 30;
 
-/// Bytes of a corner and of a triangle.
+/// The bytes of a corner and of a triangle.
 const CORNER: usize = 24;
 const TRIANGLE: usize = 12;
 
-/// Corners or triangles that are moved in one go.
+/// The number of corners or triangles that are copied at once.
 const AT_ONCE: usize = 1 << 14;
 
-/// Why bytes are no model.
+/// Why bytes cannot be decoded.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum EncodingError {
-    /// The bytes end too early, or cannot be read.
+    /// The bytes end early, or cannot be read.
     #[error("they end early ({0})")]
     Cut(#[from] io::Error),
-    /// The bytes contradict themselves.
+    /// The bytes are inconsistent.
     #[error("{0}")]
     Damaged(&'static str),
 }
 
-/// All of a model but its corners and triangles; or why there is none.
+/// All of a model except its corners and triangles; or the error of reading it.
 #[derive(Serialize, Deserialize)]
 struct EncodedHeader {
     fault: Option<Message>,
@@ -91,16 +91,16 @@ struct EncodedAnchor {
     north_rad: Option<f64>,
 }
 
-/// Bytes that a model takes, except for its JSON.
+/// The bytes of a model without its JSON.
 pub(super) fn raw_bytes(model: &Model) -> u64 {
     let of_part = |part: &Part| (part.positions.len() * CORNER + part.triangles.len() * TRIANGLE) as u64;
     model.parts.iter().map(of_part).sum()
 }
 
-/// Writes a model, or why there is none.
+/// Writes a model, or the error of reading it.
 ///
 /// # Errors
-/// What the writer says.
+/// Errors of the writer.
 pub(super) fn write(outcome: Result<&Model, &Message>, out: &mut impl Write) -> io::Result<()> {
     let absent = Model::default();
     let (model, fault) = match outcome {
@@ -167,17 +167,17 @@ fn header(model: &Model, fault: Option<Message>) -> EncodedHeader {
     }
 }
 
-/// Reads what [`write()`] has written: a model, or why there is none.
+/// Reads what [`write()`] wrote: a model, or the error of reading it.
 ///
 /// # Errors
-/// [`EncodingError`]: bytes that nobody has written so.
+/// [`EncodingError`] for bytes that [`write()`] did not write.
 pub(super) fn read(input: &mut impl Read) -> Result<Result<Model, Message>, EncodingError> {
     let mut input = ChecksumStream { inner: input, sum: SipHasher13::new() };
     let (mut mark, mut version, mut length) = ([0; 8], [0; 4], [0; 8]);
     input.read(&mut mark)?;
     input.read(&mut version)?;
     if mark != MARK || u32::from_le_bytes(version) != VERSION {
-        return Err(EncodingError::Damaged("they begin with another mark"));
+        return Err(EncodingError::Damaged("they begin with a different mark"));
     }
     input.read(&mut length)?;
     let length = u64::from_le_bytes(length);
@@ -195,7 +195,7 @@ pub(super) fn read(input: &mut impl Read) -> Result<Result<Model, Message>, Enco
     let (sum, mut told) = (input.sum.finish(), [0; 8]);
     input.inner.read_exact(&mut told)?;
     if sum != u64::from_le_bytes(told) {
-        return Err(EncodingError::Damaged("their checksum is another one"));
+        return Err(EncodingError::Damaged("their checksum does not match"));
     }
     match header.fault {
         Some(fault) => Ok(Err(fault)),
@@ -204,7 +204,7 @@ pub(super) fn read(input: &mut impl Read) -> Result<Result<Model, Message>, Enco
 }
 
 impl EncodedHeader {
-    /// Returns an error if it says what no model says; before memory is taken for it.
+    /// Refuses impossible contents before memory is allocated for them.
     fn check(&self) -> Result<(), EncodingError> {
         let sum = |count: fn(&EncodedPart) -> u64| {
             self.parts.iter().map(count).try_fold(0_u64, u64::checked_add).unwrap_or(u64::MAX)
@@ -213,13 +213,13 @@ impl EncodedHeader {
             || sum(|part| part.triangles) > MAX_TRIANGLES
             || sum(|part| part.corners) > 3 * MAX_TRIANGLES
         {
-            return Err(EncodingError::Damaged("they hold more than a model may"));
+            return Err(EncodingError::Damaged("they contain more than a model may"));
         }
         let count = self.parts.len();
         let parts_are_there = self.see_through.iter().flat_map(|material| &material.parts).all(|part| *part < count);
         let is_of_parts = |length: usize| length == 0 || length == count;
         if !parts_are_there || !is_of_parts(self.kinds.len()) || !is_of_parts(self.from_ground.len()) {
-            return Err(EncodingError::Damaged("they speak of parts that are not there"));
+            return Err(EncodingError::Damaged("they refer to parts that do not exist"));
         }
         Ok(())
     }
@@ -228,7 +228,8 @@ impl EncodedHeader {
 fn model(header: EncodedHeader, parts: Vec<Part>) -> Result<Model, EncodingError> {
     let format = FORMATS.iter().map(|format| format.name()).find(|name| *name == header.format);
     let anchor = |anchor: EncodedAnchor| {
-        let said_by = lasting(anchor.said_by).ok_or(EncodingError::Damaged("they name what no format has"))?;
+        let said_by =
+            lasting(anchor.said_by).ok_or(EncodingError::Damaged("they contain a term that no format has"))?;
         Ok(Anchor { said_by, at: anchor.at, north_rad: anchor.north_rad })
     };
     Ok(Model {
@@ -248,7 +249,7 @@ fn model(header: EncodedHeader, parts: Vec<Part>) -> Result<Model, EncodingError
     })
 }
 
-/// A format's own term for the rest of the program's life, as the readers have it. There are few of them.
+/// Makes a format's term static, as readers have it. There are only a few.
 fn lasting(text: String) -> Option<&'static str> {
     const MOST: usize = 256;
     const LONGEST: usize = 100;
@@ -265,7 +266,7 @@ fn lasting(text: String) -> Option<&'static str> {
     Some(lasting)
 }
 
-/// A stream, and the checksum of what went through it.
+/// A stream that computes the checksum of what passes through it.
 struct ChecksumStream<'a, T> {
     inner: &'a mut T,
     sum: SipHasher13,
@@ -285,7 +286,7 @@ impl<T: Read> ChecksumStream<'_, T> {
         Ok(())
     }
 
-    /// So many things of so many bytes; memory grows with what arrives.
+    /// Reads `count` things of `size` bytes. Memory grows as they arrive.
     fn read_all(&mut self, count: u64, size: usize) -> io::Result<Vec<u8>> {
         let (mut all, length) = (Vec::new(), count.saturating_mul(size as u64));
         self.inner.take(length).read_to_end(&mut all)?;
@@ -313,12 +314,12 @@ impl<T: Read> ChecksumStream<'_, T> {
         }
         let is_there = |corner: &u32| u64::from(*corner) < encoded.corners;
         if !part.triangles.iter().flatten().all(is_there) {
-            return Err(EncodingError::Damaged("they speak of corners that are not there"));
+            return Err(EncodingError::Damaged("they refer to corners that do not exist"));
         }
         for run in &encoded.coarse {
             let [start, end] = run.corners;
             if start > end || u64::from(end) > encoded.corners {
-                return Err(EncodingError::Damaged("they speak of corners that are not there"));
+                return Err(EncodingError::Damaged("they refer to corners that do not exist"));
             }
             let run = CornerPrecision { corners: start..end, step_m: run.step_m, is_float: run.is_float };
             part.coarse.push(run);

@@ -1,5 +1,5 @@
-//! Exact numbers in JSON, each written as its shortest text: JSON has no infinity, and JSON readers may round the last
-//! digit.
+//! Serializes numbers as their shortest text, so that they stay exact: JSON has no infinity, and JSON readers may round
+//! the last digit.
 
 use serde::{Deserialize, Deserializer, Serializer, de::Error};
 
@@ -11,7 +11,7 @@ pub(super) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::
     String::deserialize(from)?.parse().map_err(D::Error::custom)
 }
 
-/// The same of what may be absent.
+/// The same for optional numbers.
 pub(super) mod option {
     use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 

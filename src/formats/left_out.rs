@@ -1,4 +1,4 @@
-//! Counts what a reader leaves out while it reads, and makes names usable.
+//! Counts what a reader leaves out, and cleans names.
 
 use super::{LeftOut, composed};
 use crate::message::few;
@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 /// The longest name of a part or of a kind, bytes.
 const MOST_NAME_BYTES: usize = 1000;
 
-/// The most kinds that are told apart: a file may call each of its objects another kind.
+/// The most kinds that are counted separately: a file may give each of its objects a different kind.
 const MOST_KINDS: usize = 200;
 
 /// What was left out so far.
@@ -17,12 +17,12 @@ pub(super) struct LeftOutTally {
 }
 
 impl LeftOutTally {
-    /// One more of a kind, and why, as a clause.
+    /// Counts one thing of a kind; `why` is a clause.
     pub(super) fn add(&mut self, what: &str, why: &'static str) {
         self.add_many(what, why, 1);
     }
 
-    /// More of a kind.
+    /// Counts several things of a kind.
     pub(super) fn add_many(&mut self, what: &str, why: &'static str, count: u64) {
         if count == 0 {
             return;
@@ -35,7 +35,7 @@ impl LeftOutTally {
         *total = total.saturating_add(count);
     }
 
-    /// All of it, the commonest first.
+    /// Everything that was left out, the most frequent first.
     pub(super) fn into_left_out(self) -> Vec<LeftOut> {
         let left_out = |((what, why), count): ((String, &str), u64)| LeftOut { what, count, why: why.into() };
         let mut all: Vec<LeftOut> = self.counts.into_iter().map(left_out).collect();
@@ -44,7 +44,7 @@ impl LeftOutTally {
     }
 }
 
-/// Words of Gnomon's own for many things, and for one; a file's own terms are as the file has them.
+/// Gnomon's own plurals with their singulars; a file's own terms are not changed.
 const ONE_OF_MANY: [(&str, &str); 22] = [
     ("contents", "content"),
     ("entities", "entity"),
@@ -80,17 +80,17 @@ impl LeftOut {
     }
 }
 
-/// All that was left out on one line, as an error has it.
+/// Everything that was left out on one line, for an error.
 pub(super) fn listed(left_out: &[LeftOut]) -> String {
     few(left_out.iter().map(|one| format!("{}: {}", one.counted(), one.why)).collect())
 }
 
-/// How many there are of a thing: `1 footprint`, `2 footprints`.
+/// A number of things: `1 footprint`, `2 footprints`.
 pub(super) fn counted(count: u64, thing: &str) -> String {
     format!("{count} {thing}{}", if count == 1 { "" } else { "s" })
 }
 
-/// A name as parts have it: composed, without what no name has, and cut where it is too long, which the dots show.
+/// A part's name: composed, without control characters, and shortened with dots if it is too long.
 pub(super) fn label(name: &str) -> String {
     let name = composed(name.trim());
     let mut label: String = name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();

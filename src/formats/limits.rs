@@ -26,7 +26,7 @@ impl Default for ReadLimits {
 }
 
 impl ReadLimits {
-    /// Bytes; no limit where the system does not say how many it has.
+    /// Bytes; without a limit if the system does not report its memory.
     pub(super) fn memory_bytes(self) -> u64 {
         self.memory.unwrap_or_else(|| {
             let ram = RefreshKind::nothing().with_memory(MemoryRefreshKind::nothing().with_ram());

@@ -1,11 +1,11 @@
-//! Model files → models: the one entry point for all formats.
+//! Model files: the entry point for all formats.
 //!
-//! A format is a file or a folder of this module that implements [`Format`], and an entry in [`FORMATS`]. It returns a
-//! [`Model`] in the file's own units, axes and coordinates, all in `f64`; what it cannot read it counts and names.
-//! `site` turns the model into the mesh, so that every model is placed by the same code.
+//! A format is a file or a folder of this module that implements [`Format`], with an entry in [`FORMATS`]. It returns a
+//! [`Model`] in the file's own units, axes and coordinates, all in `f64`, and counts what it cannot read. `site` builds
+//! the mesh of models, so that every model is placed by the same code.
 //!
 //! A file is never trusted: every index and byte range is checked before it is used, and the size of what is built from
-//! it is computed before memory is taken.
+//! it is computed before memory is allocated.
 
 mod archive;
 mod cache;

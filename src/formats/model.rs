@@ -1,4 +1,5 @@
-//! What every reader returns: parts in the file's own coordinates, what these coordinates mean, and what was left out.
+//! The result of every reader: parts in the file's own coordinates, the meaning of these coordinates, and what was left
+//! out.
 
 use super::exact::{self, option as exact_option};
 use super::gltf;
@@ -8,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::path::PathBuf;
 
-/// The content of a model file.
+/// The contents of a model file.
 #[derive(Clone, Debug, Default)]
 pub struct Model {
     /// The name of the file's format, which [`super::read`] sets.
@@ -18,38 +19,37 @@ pub struct Model {
     pub parts: Vec<Part>,
     /// The kind of each part, as many as there are parts; empty if all are [`PartKind::Building`].
     pub kinds: Vec<PartKind>,
-    /// The upward axis, as the format has it.
+    /// The up axis of the format.
     pub up: Up,
-    /// Whether the file or its format says so; otherwise it is a custom, which may be wrong.
+    /// Whether the file or its format defines it; otherwise it is a convention, which may be wrong.
     pub up_is_said: bool,
     /// The length of a unit in metres, if the file or its format says it.
     pub unit_m: Option<f64>,
     /// The meaning of the coordinates.
     pub coordinates: Coordinates,
-    /// Of each part whether its heights are measured from the ground, which the file does not know: it then stands on the
-    /// terrain below it, if there is any. As many as there are parts; empty if none does.
+    /// For each part, whether its heights are measured from the ground, whose height the file does not know. Such parts
+    /// stand on the terrain below, if there is any. Empty if there are no such parts.
     pub from_ground: Vec<bool>,
-    /// Where the file says that its own zero lies, the most exact anchor first. If several disagree, all are shown.
+    /// Where the file says that its own origin lies, the most exact anchor first. All are shown if they disagree.
     pub anchors: Vec<Anchor>,
-    /// The length in metres of the unit in which an anchor's easting and northing are taken, where the file does not say
-    /// it; the map itself may be in another one.
+    /// The unit, in metres, that an anchor's easting and northing are assumed to be in because the file does not give
+    /// it. The map may have a different unit.
     pub assumed_map_unit_m: Option<f64>,
     /// What the file contains but the model does not.
     pub left_out: Vec<LeftOut>,
-    /// What else the user should know of how the file was read: sentences without their full stop, whose subject is the
-    /// file.
+    /// Other notes on how the file was read: sentences without a full stop whose subject is the file.
     pub notes: Vec<Message>,
     /// See-through materials, each name once. They cast as if they were solid.
     pub see_through: Vec<SeeThrough>,
 }
 
-/// The kind of a part, which decides its defaults.
+/// The kind of a part, which determines its defaults.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum PartKind {
     /// It casts and receives.
     #[default]
     Building,
-    /// The ground as measured. It casts and receives, and it is "the ground".
+    /// The measured ground. It casts and receives, and it is "the ground".
     Terrain,
     /// A sheet on the ground, such as a site, a road or water. It receives and does not cast.
     GroundCover,
@@ -72,35 +72,34 @@ impl PartKind {
 /// The meaning of a file's coordinates.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum Coordinates {
-    /// Coordinates of the drawing alone.
+    /// Coordinates of a drawing, without a relation to the Earth.
     #[default]
     Local,
-    /// Coordinates of a map, or of the Earth: x is the easting or longitude, y the northing or latitude, z the height;
-    /// Earth-centred ones are x, y, z. The text is the reference system as the file says it: `EPSG:25832`, a name, WKT
-    /// or PROJ's text. Eastings and northings are in the system's unit, longitudes and latitudes in degrees. Heights are
-    /// in the unit that `unit_m` says; without one in the unit that the system has for heights (a compound one),
-    /// otherwise in metres.
+    /// Coordinates in a map, or on the Earth: x is the easting or longitude, y the northing or latitude, z the height;
+    /// geocentric ones are x, y, z. The text is the file's name for the reference system: `EPSG:25832`, a name, WKT or
+    /// PROJ's text. Eastings and northings are in the system's unit, longitudes and latitudes in degrees. Heights are
+    /// in the unit `unit_m`; without it in the unit that a compound system has for heights, otherwise in metres.
     Map(String),
 }
 
-/// Says where the zero of a file's own coordinates lies.
+/// A statement of where the origin of a file's coordinates lies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Anchor {
-    /// The file's own term for what says it: `IfcMapConversion`.
+    /// The file's own term for the source of the statement: `IfcMapConversion`.
     pub said_by: &'static str,
-    /// The point at which it lies.
+    /// The point where the origin lies.
     pub at: AnchorPoint,
-    /// Radians clockwise from the file's own north (its +y where z is up) to the anchor's north: the map's for a point
-    /// of a map, otherwise true north. `None` if the file does not say it.
+    /// Radians clockwise from the file's own north (+y if z is up) to the anchor's north: the map's for a point in a
+    /// map, otherwise true north. `None` if the file does not give it.
     pub north_rad: Option<f64>,
 }
 
-/// A point of a map, or of the Earth.
+/// A point in a map, or on the Earth.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum AnchorPoint {
-    /// A point of a map.
+    /// A point in a map.
     Map {
-        /// As in [`Coordinates::Map`]; empty where the file does not name it.
+        /// As in [`Coordinates::Map`]; empty if the file does not name it.
         crs: String,
         /// Metres.
         #[serde(with = "exact")]
@@ -108,14 +107,14 @@ pub enum AnchorPoint {
         /// Metres.
         #[serde(with = "exact")]
         northing: f64,
-        /// Metres, where the file says it.
+        /// Metres, if the file gives it.
         #[serde(with = "exact_option")]
         height: Option<f64>,
-        /// Metres on the map a unit of the file.
+        /// Metres in the map for a metre of the file.
         #[serde(with = "exact")]
         scale: f64,
     },
-    /// A point of the Earth, in WGS 84.
+    /// A point on the Earth, in WGS 84.
     Geographic {
         /// Degrees, north positive.
         #[serde(with = "exact")]
@@ -123,11 +122,11 @@ pub enum AnchorPoint {
         /// Degrees, east positive.
         #[serde(with = "exact")]
         longitude_deg: f64,
-        /// Metres, where the file says it.
+        /// Metres, if the file gives it.
         #[serde(with = "exact_option")]
         elevation_m: Option<f64>,
     },
-    /// The file says only which way north is.
+    /// No point: the file only says which way north is.
     Nowhere,
 }
 
@@ -138,7 +137,7 @@ pub struct LeftOut {
     pub what: String,
     /// Their number.
     pub count: u64,
-    /// The reason, in words that fit one and many: "not built".
+    /// The reason, in words that fit singular and plural: "not built".
     pub why: String,
 }
 
@@ -151,7 +150,7 @@ pub struct SeeThrough {
     pub parts: Vec<usize>,
 }
 
-/// The upward axis of a model.
+/// The up axis of a model.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Up {
     /// y is up, as in glTF: x is east, and −z north.
@@ -191,7 +190,7 @@ pub struct ReadOptions {
     /// Metres from the ground to the roof of a footprint whose file says no height.
     #[serde(with = "exact_option")]
     pub default_height_m: Option<f64>,
-    /// The greatest distance of a thinned terrain from its heights, metres.
+    /// The greatest error of a thinned terrain, metres.
     #[serde(with = "exact")]
     pub terrain_error_m: f64,
     /// The classes of measured points that are read besides the ground: `building`, `vegetation`.
@@ -211,9 +210,9 @@ impl Default for ReadOptions {
 }
 
 impl ReadOptions {
-    /// Finer steps get no note, metres. A receiver is judged at this height.
+    /// The coarsest step that gets no note, metres. Receivers are judged at this height above themselves.
     const TOLD_M: f64 = 0.001;
-    /// The default of the greatest distance of a thinned terrain from its heights, metres.
+    /// The default for the greatest error of a thinned terrain, metres.
     pub const TERRAIN_ERROR_M: f64 = 0.1;
 
     /// Numbers with a coarser step than this get a note, in the units of a file that says how many metres one is.
@@ -256,7 +255,7 @@ impl Worded for ModelError {
 }
 
 impl ModelError {
-    /// Whether nothing is wrong, and somebody ended the reading.
+    /// Whether the user cancelled the reading, so that nothing is wrong.
     pub fn is_given_up(&self) -> bool {
         matches!(self.fault, ModelFault::GivenUp)
     }
@@ -287,12 +286,12 @@ impl From<Message> for ModelFault {
 }
 
 impl ModelFault {
-    /// The operating system does not give the file.
+    /// The operating system cannot read the file.
     pub(crate) fn unreadable(error: std::io::Error) -> Self {
         message![format!("cannot be read: {error}")].into()
     }
 
-    /// Whether the user asked for a scene that the file has not.
+    /// Whether the user asked for a scene that the file does not have.
     pub(crate) fn is_about_scene(&self) -> bool {
         matches!(self, ModelFault::Gltf(gltf::Fault::Scene(_)))
     }
@@ -309,7 +308,7 @@ impl Model {
         self.from_ground.get(part).copied().unwrap_or_default()
     }
 
-    /// Whether those of all parts are, so that the model says no height above the sea.
+    /// Whether all parts' heights are, so that the model has no height above the sea.
     pub fn stands_on_ground(&self) -> bool {
         !self.from_ground.is_empty() && self.from_ground.iter().all(|is_from_ground| *is_from_ground)
     }

@@ -9,30 +9,29 @@ use std::sync::atomic::AtomicBool;
 
 /// How model files are read.
 ///
-/// The default reads in this process, without limits and without a cache, as a program does that uses Gnomon as a
-/// library: it is another program, and does not answer `gnomon read-model`. One that ships the command beside itself
-/// can name that.
+/// The default reads in this process, without limits and without a cache. That is for a program that uses Gnomon as a
+/// library: its executable does not answer `gnomon read-model`. A program that ships the command with it can set
+/// `program`.
 #[derive(Clone, Debug, Default)]
 pub struct ModelReader {
-    /// The program that is started again for readers from other libraries ([`super::Format::is_foreign`]).
+    /// The executable that is started for readers from other libraries ([`super::Format::is_foreign`]).
     pub program: Option<PathBuf>,
     /// Limits on such a process.
     pub limits: ReadLimits,
     /// The cache for models that take long to read.
     pub cache: Option<ModelCache>,
-    /// Is set when nobody needs the model any more: the process is then ended, and reading fails with
-    /// [`ModelFault::GivenUp`].
+    /// Set this to cancel the reading: the process is then ended, and reading fails with [`ModelFault::GivenUp`].
     pub given_up: Arc<AtomicBool>,
 }
 
 impl ModelReader {
-    /// As the program itself reads: readers from other libraries in processes of this program, and with the user's
-    /// cache.
+    /// Reads as the command does: readers from other libraries run in child processes of this executable, and the
+    /// user's cache is used.
     pub fn of_this_program() -> ModelReader {
         ModelReader { program: std::env::current_exe().ok(), cache: ModelCache::of_user(), ..ModelReader::default() }
     }
 
-    /// The same, with another flag that ends the reading.
+    /// The same with a different flag for cancelling.
     pub fn until(&self, given_up: &Arc<AtomicBool>) -> ModelReader {
         ModelReader { given_up: Arc::clone(given_up), ..self.clone() }
     }
@@ -65,10 +64,10 @@ impl ModelReader {
         Ok(model)
     }
 
-    /// As [`ModelReader::read`], without the cache, in a process of the program whatever the reader.
+    /// As [`ModelReader::read`], but without the cache and always in a child process.
     ///
     /// # Errors
-    /// As [`ModelReader::read`]; where no program is named.
+    /// As [`ModelReader::read`]; also if no executable is set.
     pub fn read_apart(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelError> {
         let read = || match &self.program {
             Some(program) => child::read(program, self.limits, &self.given_up, path, options),

@@ -1,21 +1,21 @@
-//! A flat face with holes → triangles in n log n steps, whatever its form: lakes and roads of a city have a hundred thousand
-//! corners, and clipping ears takes the square of them where a face winds or has spikes.
+//! Cuts a flat face with holes into triangles in O(n log n): a city's lakes and roads have a hundred thousand corners,
+//! and ear clipping takes quadratic time if a face winds or has spikes.
 //!
-//! After de Berg and others, *Computational Geometry*, chapter 3: a line sweeps from above and cuts the face at the corners
-//! where it would divide or join; the pieces go down without a turn, and are cut from their top to their bottom. Corners of one
-//! height are taken from left to right. What crosses or touches itself may come out wrong: whoever asks compares the areas.
+//! After de Berg et al., *Computational Geometry*, chapter 3: a sweep line moves down and cuts the face into monotone
+//! pieces at its split and merge vertices; each piece is then cut from top to bottom. Corners of equal height are taken
+//! from left to right. A face that crosses or touches itself may come out wrong: the caller compares the areas.
 
 use glam::DVec2;
 use std::cmp::Ordering;
 
-/// The most edges of a block of the sweep line's list.
+/// The most edges in a block of the sweep line's list.
 const BLOCK: usize = 512;
 
 /// No corner.
 const NONE: u32 = u32::MAX;
 
-/// The triangles of rings that follow each other in `points` and end before `ends`, all counter-clockwise, by their corners'
-/// numbers; none where the rings contradict themselves.
+/// The triangles of rings that are consecutive in `points` and end at `ends`, all counter-clockwise, as corner indices;
+/// `None` if the rings are inconsistent.
 pub(super) fn triangles(points: &[[f64; 2]], ends: &[usize]) -> Option<Vec<[u32; 3]>> {
     let mut sweep = Sweep::of(points, ends)?;
     sweep.run()?;
@@ -25,19 +25,19 @@ pub(super) fn triangles(points: &[[f64; 2]], ends: &[usize]) -> Option<Vec<[u32;
     Some(triangles)
 }
 
-/// The rings, the edges that the sweep line meets, and the diagonals found so far. An edge is known by the corner at which it
-/// begins, and runs with the face at its left.
+/// The rings, the edges that cross the sweep line, and the diagonals so far. An edge is identified by the corner where
+/// it begins, and has the face on its left.
 struct Sweep {
     points: Vec<DVec2>,
     next: Vec<u32>,
     before: Vec<u32>,
-    /// The corners that are used, from above.
+    /// The corners in use, from top to bottom.
     order: Vec<u32>,
-    /// Edges that run down where the line is, from left to right, in blocks of which none is empty.
+    /// The downward edges that cross the line, from left to right, in blocks; no block is empty.
     line: Vec<Vec<u32>>,
-    /// Of each of those the lowest corner above the line that sees it.
+    /// For each of these edges its helper: the lowest corner above the line that sees it.
     helper: Vec<u32>,
-    /// Which corners join two pieces.
+    /// Which corners are merge vertices.
     joins: Vec<bool>,
     diagonals: Vec<[u32; 2]>,
 }
@@ -67,7 +67,7 @@ impl Sweep {
         Some(sweep)
     }
 
-    /// Links a ring, the outer one counter-clockwise and holes clockwise. A corner that repeats the one before is left out.
+    /// Links a ring, the outer one counter-clockwise and holes clockwise. Repeated corners are left out.
     fn add_ring(&mut self, mut ring: Vec<u32>, is_outer: bool) -> Option<()> {
         ring.dedup_by_key(|corner| self.points.get(*corner as usize).map(|at| at.to_array().map(f64::to_bits)));
         while ring.len() > 1 && self.at(*ring.first()?) == self.at(*ring.last()?) {
@@ -77,7 +77,7 @@ impl Sweep {
         let pairs = ring.iter().zip(ring.iter().cycle().skip(1));
         let area: f64 = pairs.map(|(&a, &b)| (self.at(a) - first).perp_dot(self.at(b) - first)).sum();
         if ring.len() < 3 || area == 0.0 {
-            // a hole without an area takes nothing away
+            // a hole without area has no effect
             return (!is_outer).then_some(());
         }
         if (area > 0.0) != is_outer {
@@ -95,7 +95,7 @@ impl Sweep {
         self.points.get(corner as usize).copied().unwrap_or(DVec2::NAN)
     }
 
-    /// Which of two corners is the first from above.
+    /// The order of two corners from top to bottom.
     fn height_order(&self, a: u32, b: u32) -> Ordering {
         let ([ax, ay], [bx, by]) = (self.at(a).to_array(), self.at(b).to_array());
         by.total_cmp(&ay).then(ax.total_cmp(&bx)).then(a.cmp(&b))
@@ -105,7 +105,7 @@ impl Sweep {
         self.height_order(a, b) == Ordering::Less
     }
 
-    /// Twice the area of three corners, positive where they run counter-clockwise.
+    /// Twice the area of a triangle of corners, positive if it is counter-clockwise.
     fn turn(&self, [a, b, c]: [u32; 3]) -> f64 {
         let from = self.at(a);
         (self.at(b) - from).perp_dot(self.at(c) - from)
@@ -119,21 +119,21 @@ impl Sweep {
         self.before.get(corner as usize).copied().unwrap_or(NONE)
     }
 
-    /// Finds the diagonals; none where an edge is not where it must be, as where rings cross.
+    /// Finds the diagonals; `None` if an edge is not where it should be, as happens if rings cross.
     fn run(&mut self) -> Option<()> {
         for at in 0..self.order.len() {
             let corner = *self.order.get(at)?;
             let (before, next) = (self.before(corner), self.next(corner));
             let is_convex = self.turn([before, corner, next]) > 0.0;
             match (self.is_above(before, corner), self.is_above(next, corner)) {
-                // both sides go down from here
+                // both sides begin here: a start or split vertex
                 (false, false) => {
                     if !is_convex {
                         self.see_from(corner, true)?;
                     }
                     self.insert(corner);
                 }
-                // both sides end here
+                // both sides end here: an end or merge vertex
                 (true, true) => {
                     self.close(before, corner)?;
                     if !is_convex {
@@ -141,7 +141,7 @@ impl Sweep {
                         *self.joins.get_mut(corner as usize)? = true;
                     }
                 }
-                // the face is at the right
+                // the face is on the right
                 (true, false) => {
                     self.close(before, corner)?;
                     self.insert(corner);
@@ -152,8 +152,8 @@ impl Sweep {
         Some(())
     }
 
-    /// The edge at the left of a corner is seen from there; a diagonal goes to who saw it before, where that joined pieces or
-    /// the corner divides one.
+    /// Connects a corner with the edge on its left: adds a diagonal to the helper of that edge if the helper is a merge
+    /// vertex or the corner is a split vertex, and makes the corner the helper.
     fn see_from(&mut self, corner: u32, divides: bool) -> Option<()> {
         let (block, at) = self.place(corner);
         let left = *self.line.get(block)?.get(at.checked_sub(1)?)?;
@@ -165,7 +165,7 @@ impl Sweep {
         Some(())
     }
 
-    /// Takes the edge out that ends at a corner.
+    /// Removes the edge that ends at a corner.
     fn close(&mut self, edge: u32, corner: u32) -> Option<()> {
         let helper = *self.helper.get(edge as usize)?;
         if self.joins.get(helper as usize).copied()? {
@@ -186,7 +186,7 @@ impl Sweep {
         Some(())
     }
 
-    /// Takes the edge in that begins at a corner, who sees it.
+    /// Inserts the edge that begins at a corner, with the corner as its helper.
     fn insert(&mut self, corner: u32) {
         if let Some(helper) = self.helper.get_mut(corner as usize) {
             *helper = corner;
@@ -203,7 +203,7 @@ impl Sweep {
         }
     }
 
-    /// Where a corner lies on the line: the block, and how many of its edges are at the left of the corner.
+    /// The position of a corner on the line: the block, and the number of its edges to the left of the corner.
     fn place(&self, corner: u32) -> (usize, usize) {
         let is_left = |edge: &u32| self.turn([*edge, self.next(*edge), corner]) > 0.0;
         let blocks = self.line.partition_point(|edges| edges.first().is_some_and(is_left));
@@ -212,13 +212,13 @@ impl Sweep {
     }
 }
 
-/// The pieces between the edges and the diagonals.
+/// The pieces between edges and diagonals.
 struct MonotonePieces {
-    /// Both directions of each diagonal, by where they begin, and there counter-clockwise from the edge.
+    /// Both directions of each diagonal, sorted by their start, and there counter-clockwise from the edge.
     ways: Vec<[u32; 2]>,
-    /// The other direction of each.
+    /// The index of each one's opposite direction.
     back: Vec<usize>,
-    /// The first way of each corner, and one behind its last.
+    /// The first entry of each corner in `ways`, and the end.
     first: Vec<usize>,
 }
 
@@ -247,7 +247,7 @@ impl MonotonePieces {
         Self { ways: ways.iter().map(|&(from, _, _, to)| [from, to]).collect(), back, first }
     }
 
-    /// Gives the corners of each piece, counter-clockwise.
+    /// Calls the function with the corners of each piece, counter-clockwise.
     fn each(&self, sweep: &Sweep, mut each: impl FnMut(&[u32])) {
         let mut is_done = vec![false; sweep.points.len() + self.ways.len()];
         let mut piece = Vec::new();
@@ -269,7 +269,7 @@ impl MonotonePieces {
         }
     }
 
-    /// Where an edge or a diagonal begins, and what follows it around its piece: the first at its end, clockwise.
+    /// Where an edge or a diagonal begins, and the next one around its piece: the first clockwise at its end.
     fn follow(&self, sweep: &Sweep, step: usize) -> (u32, usize) {
         let count = sweep.points.len();
         let Some(way) = step.checked_sub(count) else {
@@ -283,7 +283,7 @@ impl MonotonePieces {
     }
 }
 
-/// Cuts a piece that goes down on both sides.
+/// Cuts a monotone piece.
 fn cut(sweep: &Sweep, piece: &[u32], triangles: &mut Vec<[u32; 3]>) {
     let mut push = |[a, b, c]: [u32; 3]| {
         triangles.push(if sweep.turn([a, b, c]) < 0.0 { [a, c, b] } else { [a, b, c] });
@@ -296,7 +296,7 @@ fn cut(sweep: &Sweep, piece: &[u32], triangles: &mut Vec<[u32; 3]>) {
         (0..piece.len()).reduce(|a, b| better(&a, &b)).unwrap_or(0)
     };
     let (top, bottom) = (ends(Ordering::Less), ends(Ordering::Greater));
-    // from the top the way around leads down at the left
+    // counter-clockwise from the top, the left side comes first
     let count = piece.len();
     let left = (bottom + count - top) % count;
     let mut corners: Vec<(u32, bool)> =

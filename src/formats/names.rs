@@ -15,8 +15,8 @@ pub(crate) fn composed(name: &str) -> Cow<'_, str> {
     }
 }
 
-/// Where a file lies that a person has named: there, or where the folder holds none of that very name, under the name
-/// that means the same.
+/// The path of a file that a person named: as written, or, if the folder does not have exactly that name, under an
+/// equivalent spelling.
 pub(crate) fn on_disk(path: &Path) -> PathBuf {
     if path.to_str().is_none_or(str::is_ascii) || path.exists() {
         return path.to_owned();
@@ -35,7 +35,7 @@ pub(crate) fn on_disk(path: &Path) -> PathBuf {
     found
 }
 
-/// The name in a folder that means the same as another; of several the first in the order of their bytes.
+/// An equivalent name in a folder; of several the first in byte order.
 fn same_name(folder: &Path, name: &str) -> Option<String> {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let entries = folder.read_dir().ok()?.filter_map(Result::ok);

@@ -1,4 +1,4 @@
-//! Files of known programs that are not read, and how to export a file that is read from each program.
+//! Files of known programs that are not read, and how to export a readable file from each program.
 
 use super::companion;
 use crate::message::{Message, message};
@@ -6,21 +6,21 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
-/// A format that is known, and not read.
+/// A format that is known but not read.
 struct RefusedFormat {
-    /// What people call its files, with the article.
+    /// What its files are usually called, with the article.
     what: &'static str,
-    /// How its files' names end.
+    /// The endings of its files' names.
     endings: &'static [&'static str],
-    /// How its files begin; several formats may begin alike, and then the ending tells which it is.
+    /// The first bytes of its files. Several formats may share them; then the ending decides.
     marks: &'static [&'static [u8]],
-    /// Words of their beginning, of texts that begin as many others do.
+    /// Words near the beginning, for texts whose first bytes are common.
     words: &'static [&'static [u8]],
-    /// How to export what is read.
+    /// How to export something that is read.
     way_out: &'static str,
 }
 
-/// What compound files of Microsoft's kind begin with.
+/// The first bytes of Microsoft's compound files.
 const COMPOUND: &[u8] = b"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1";
 
 const REFUSED: &[RefusedFormat] = &[
@@ -29,7 +29,7 @@ const REFUSED: &[RefusedFormat] = &[
         endings: &["skp", "skb"],
         marks: &[b"\xFF\xFE\xFF\x0ES\0k\0e\0t\0c\0h\0"],
         words: &[],
-        way_out: "in SketchUp, File > Export > 3D Model, as COLLADA (.dae): its components stay apart",
+        way_out: "in SketchUp, File > Export > 3D Model, as COLLADA (.dae), which keeps its components separate",
     },
     RefusedFormat {
         what: "a Rhino file",
@@ -212,14 +212,14 @@ impl RefusedFormat {
     }
 }
 
-/// The error for a file that begins with these bytes, where they show a format that is not read.
+/// The error for a file with these first bytes, if they identify a format that is not read.
 pub(super) fn by_content(head: &[u8], path: &Path) -> Option<Message> {
     let mut alike = REFUSED.iter().filter(|format| format.begins(head));
     let first = alike.clone().next()?;
     Some(alike.find(|format| format.ends(path)).unwrap_or(first).message())
 }
 
-/// The error for a file whose name ends as those of a format that is not read.
+/// The error for a file with the ending of a format that is not read.
 pub(super) fn by_ending(path: &Path) -> Option<Message> {
     REFUSED.iter().find(|format| format.ends(path)).map(RefusedFormat::message)
 }
@@ -231,7 +231,7 @@ impl RefusedFormat {
     }
 }
 
-/// What is said of a file of a program whose files are known and not read; none of any other file.
+/// The message for a file of a known format that is not read; `None` for other files.
 pub(crate) fn refusal(path: &Path) -> Option<Message> {
     if !path.is_file() {
         return None;

@@ -1,9 +1,10 @@
-//! A file's bytes, its text and its names: the input of readers of text and tables.
+//! Reads a file's bytes as lines, words and names, for the text formats.
 
 use crate::message::{Message, message};
 use std::path::{Component, Path, PathBuf};
 
-/// A text's bytes in an encoding that contains ASCII: UTF-16 of both ends becomes UTF-8, and a byte order mark goes.
+/// Text in an encoding that contains ASCII: converts UTF-16 of either byte order to UTF-8, and removes a byte-order
+/// mark.
 pub(super) fn as_ascii(mut bytes: Vec<u8>) -> Vec<u8> {
     match bytes.as_slice() {
         [0xFF, 0xFE, rest @ ..] => from_utf16(rest, u16::from_le_bytes),
@@ -24,7 +25,7 @@ fn from_utf16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> Vec<u8> {
     letters.collect::<String>().into_bytes()
 }
 
-/// A text: UTF-8, or else Latin-1, in which every byte is a letter.
+/// Decodes text as UTF-8, otherwise as Latin-1, in which every byte is a character.
 pub(super) fn text(bytes: &[u8]) -> String {
     match std::str::from_utf8(bytes) {
         Ok(text) => text.to_owned(),
@@ -37,20 +38,20 @@ pub(super) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
     line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
 }
 
-/// The word with which a line begins, and what follows it.
+/// The first word of a line, and the rest of the line.
 pub(super) fn keyword(line: &[u8]) -> Option<(&[u8], &[u8])> {
     let line = line.trim_ascii_start();
     let word = words(line).next()?;
     Some((word, line.get(word.len()..).unwrap_or_default()))
 }
 
-/// A finite number, as the whole of a word.
+/// Reads a whole word as a finite number.
 pub(super) fn number(word: &[u8]) -> Option<f64> {
     let number: f64 = std::str::from_utf8(word).ok()?.parse().ok()?;
     number.is_finite().then_some(number)
 }
 
-/// The lines of a text, however they end.
+/// The lines of a text with any line ending.
 #[derive(Clone)]
 pub(super) struct TextLines<'a> {
     rest: Option<&'a [u8]>,
@@ -81,14 +82,14 @@ impl<'a> Iterator for TextLines<'a> {
     }
 }
 
-/// What is wrong in a line of a file.
+/// An error in a line of a file.
 pub(super) fn wrong_line(line: usize, what: &str) -> Message {
     message![format!("{what} in line {line}"); "the file is damaged or was edited: export it again"]
 }
 
-/// Where a file lies that a model names: in the model's folder or below it; none where it is to lie elsewhere.
+/// The path of a file that a model refers to, in the model's folder or below it; `None` if it is elsewhere.
 pub(super) fn beside(model: &Path, name: &str) -> Option<PathBuf> {
-    // a file means the same on all systems
+    // a path means the same on all systems
     let name = name.trim().replace('\\', "/");
     let relative = Path::new(&name);
     let is_inside = |part| matches!(part, Component::Normal(_) | Component::CurDir);
@@ -96,7 +97,7 @@ pub(super) fn beside(model: &Path, name: &str) -> Option<PathBuf> {
     is_within.then(|| super::on_disk(&model.parent().unwrap_or(Path::new("")).join(relative)))
 }
 
-/// What a part is called whose file has no name for it: as the file is.
+/// The name of a part that has no name in its file: the file's.
 pub(super) fn stem(path: &Path) -> String {
     super::left_out::label(&path.file_stem().unwrap_or_default().to_string_lossy())
 }

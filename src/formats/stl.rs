@@ -1,4 +1,4 @@
-//! STL, ASCII or binary → one part per solid.
+//! Reads STL, ASCII or binary: one part per solid.
 
 use super::face_cutter::FaceCutter;
 use super::left_out::{LeftOutTally, counted, label};
@@ -11,9 +11,9 @@ use crate::message::{Message, message};
 use glam::DVec3;
 use std::path::Path;
 
-/// Bytes before a binary file's triangles: a header of any content, and their number.
+/// The bytes before a binary file's triangles: a header with any contents, and their number.
 const HEADER: usize = 84;
-/// Bytes of a triangle: a normal, three corners, and two bytes of any content.
+/// The bytes of a triangle: a normal, three corners, and two arbitrary bytes.
 const TRIANGLE: usize = 50;
 
 /// STL, `.stl`.
@@ -28,7 +28,7 @@ impl Format for Stl {
         &["stl"]
     }
 
-    /// A binary file begins with no mark of its own.
+    /// Binary STL files have no magic number.
     fn begins(&self, head: &[u8]) -> bool {
         let begin = words(head).take(64).collect::<Vec<_>>();
         let has = |word: &[u8]| begin.iter().any(|one| one.eq_ignore_ascii_case(word));
@@ -51,11 +51,11 @@ impl Format for Stl {
     }
 }
 
-/// That a file holds more triangles than it promises, where it does: an exporter counts wrongly, or two files became one.
+/// A note if a file has more triangles than it states: its exporter miscounted, or two files were joined.
 fn surplus(promised: usize, behind: usize) -> Option<Message> {
     (behind >= TRIANGLE).then(|| {
         let what = format!(
-            "promises {}, which are read, and has {behind} bytes behind them, room for {} more",
+            "states {}, which are read, but has {behind} more bytes, enough for {} more",
             counted(promised as u64, "triangle"),
             behind / TRIANGLE
         );
@@ -63,14 +63,14 @@ fn surplus(promised: usize, behind: usize) -> Option<Message> {
     })
 }
 
-/// What a binary file holds.
+/// The contents of a binary file.
 struct StlNumbers<'a> {
-    /// As many triangles as it promises.
+    /// As many triangles as the file states.
     triangles: &'a [[u8; TRIANGLE]],
     bytes_behind: usize,
 }
 
-/// The numbers of a binary file; none where it is text. Binary files may begin with "solid", too, so the size decides.
+/// The numbers of a binary file; `None` for text. Binary files may begin with "solid", too, so the size decides.
 fn triangles_of(bytes: &[u8]) -> Result<Option<StlNumbers<'_>>, Message> {
     let is_text = words(bytes.get(..200.min(bytes.len())).unwrap_or_default())
         .next()
@@ -90,7 +90,7 @@ fn triangles_of(bytes: &[u8]) -> Result<Option<StlNumbers<'_>>, Message> {
     }
     let bytes_behind = body.len().saturating_sub(TRIANGLE * count);
     triangles.get(..count).map(|triangles| Some(StlNumbers { triangles, bytes_behind })).ok_or_else(|| {
-        let what = format!("promises {count} triangles, and holds {}", triangles.len());
+        let what = format!("states {count} triangles, but has {}", triangles.len());
         message![what; "the file is cut off or damaged: copy or export it again"]
     })
 }
@@ -105,7 +105,7 @@ fn of_numbers(triangles: &[[u8; TRIANGLE]], path: &Path, options: &ReadOptions) 
         if corners.iter().all(|corner| corner.is_finite()) {
             push(&mut part, &corners, &[[0, 1, 2]]);
         } else {
-            tally.add("triangles", "a coordinate is no number");
+            tally.add("triangles", "a coordinate is not a number");
         }
     }
     note_floats(&mut part, options.told_step(1.0));
@@ -117,16 +117,16 @@ fn named(name: String) -> Part {
 }
 
 fn push(part: &mut Part, corners: &[DVec3], triangles: &[[u32; 3]]) {
-    // a file has at most 4 GiB, and a corner more than ten bytes
+    // fits: a file has at most 4 GiB, and a corner more than ten bytes
     let first = part.positions.len() as u32;
     part.positions.extend_from_slice(corners);
     part.triangles.extend(triangles.iter().map(|triangle| triangle.map(|corner| first + corner)));
 }
 
-/// What a text says so far.
+/// The contents of a text so far.
 struct StlText {
     parts: Vec<Part>,
-    /// Of the facet at hand.
+    /// The corners of the current facet.
     corners: Vec<DVec3>,
     is_in_facet: bool,
     is_in_solid: bool,
@@ -184,7 +184,7 @@ impl StlText {
             b"endfacet" if self.is_in_facet => self.close_facet(path)?,
             b"endsolid" => self.is_in_solid = false,
             b"outer" | b"endloop" | b"color" => (),
-            _ => return Err(wrong_line(number, "says what STL does not know")),
+            _ => return Err(wrong_line(number, "is not a line of STL")),
         }
         Ok(())
     }
@@ -212,13 +212,13 @@ impl StlText {
     }
 }
 
-/// What a solid without a name is called.
+/// The name of a solid without a name.
 fn unnamed(path: &Path, before: usize) -> String {
     if before == 0 { stem(path) } else { format!("solid {}", before + 1) }
 }
 
 fn corner<'a>(mut words: impl Iterator<Item = &'a [u8]>, line: usize) -> Result<DVec3, Message> {
     let mut next =
-        || words.next().and_then(number).ok_or_else(|| wrong_line(line, "has no three numbers for a vertex"));
+        || words.next().and_then(number).ok_or_else(|| wrong_line(line, "does not have three numbers for a vertex"));
     Ok(DVec3::new(next()?, next()?, next()?))
 }

@@ -1,4 +1,4 @@
-//! The list of all formats; a file is read as the one that it is.
+//! The list of all formats, and the choice of a file's format.
 
 use super::format::{Format, HEAD_BYTES};
 use super::left_out::listed;
@@ -10,9 +10,9 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
-/// All formats, in the order in which they are tried. Formats with a mark at their beginning come first: a file with
-/// that mark is theirs, whatever follows. A format that is recognised by words near its beginning could find them in
-/// another format's file as well, so the loose ones (JSON, XML, ASCII grid, OBJ) come last.
+/// All formats, in the order in which they are tried. Formats with a magic number come first, as it is certain. Formats
+/// that are recognised by words near the beginning could be mistaken for others, so the loosest ones (JSON, XML, ASCII
+/// grid, OBJ) come last.
 pub const FORMATS: &[&dyn Format] = &[
     &gltf::Gltf,
     &ifc::Ifc,
@@ -21,23 +21,23 @@ pub const FORMATS: &[&dyn Format] = &[
     &terrain::GeoTiff,
     &terrain::LasPoints,
     &ply::Ply,
-    // by words of their own
+    // by their own words
     &dxf::Dxf,
     &stl::Stl,
     // JSON, by its keys
     &cityjson::CityJson,
     &tiles3d::Tiles3d,
     &footprints::GeoJson,
-    // XML, by its root
+    // XML, by its root element
     &citygml::CityGml,
     &terrain::LandXml,
     &dae::Dae,
     &terrain::AsciiGrid,
-    // by its name's ending alone
+    // only by its ending
     &obj::Obj,
 ];
 
-/// The format to which the ending of a file's name belongs.
+/// The format that an ending belongs to.
 pub fn by_ending(path: &Path) -> Option<&'static dyn Format> {
     let ending = path.extension()?.to_string_lossy().to_lowercase();
     FORMATS.iter().copied().find(|format| format.endings().contains(&ending.as_str()))
@@ -47,24 +47,24 @@ fn by_content(head: &[u8]) -> Option<&'static dyn Format> {
     FORMATS.iter().copied().find(|format| format.begins(head))
 }
 
-/// The bytes by which a file's format is known.
+/// The bytes that identify a file's format.
 fn head_of(path: &Path) -> std::io::Result<Vec<u8>> {
     let mut head = Vec::new();
     File::open(path)?.take(HEAD_BYTES).read_to_end(&mut head)?;
     Ok(head)
 }
 
-/// Whether a path names a model and no site file: its name ends as those of a format, or it is a file whose content is
-/// of one. A site file may be called anything: what is called JSON or XML and begins as neither is none of these.
+/// Whether a path is a model and not a site file: it has the ending of a format, or its contents have the format. A
+/// site file may have any name. A file named as JSON or XML that begins as neither is not a model.
 pub(crate) fn is_model(path: &Path) -> bool {
     let ends = |endings: &[&str]| {
         path.extension().is_some_and(|own| endings.iter().any(|ending| own.eq_ignore_ascii_case(ending)))
     };
-    // asked before opening: opening a pipe would wait for its writer
+    // checked before opening: opening a pipe would wait for its writer
     let head = || path.is_file().then(|| head_of(path).ok()).flatten();
     let is_text = |head: &[u8]| {
         let text = head.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(head).trim_ascii_start();
-        // UTF-16 begins with its mark
+        // UTF-16 begins with a byte-order mark
         text.first().is_none_or(|first| b"{<\xFF\xFE".contains(first))
     };
     match by_ending(path) {
@@ -74,21 +74,21 @@ pub(crate) fn is_model(path: &Path) -> bool {
     }
 }
 
-/// Which keys of a model the format of that name uses, of those that not all do; none where there is no such format.
+/// The keys of a model that the format of a name uses, among those that not all use; `None` for an unknown format.
 pub(crate) fn keys_of(name: &str) -> Option<&'static [&'static str]> {
     FORMATS.iter().find(|format| format.name() == name).map(|format| format.keys())
 }
 
-/// The format of a file: its content decides, then how its name ends.
+/// The format of a file: by its contents, then by its ending.
 pub(super) fn format_of(path: &Path) -> Result<&'static dyn Format, ModelFault> {
-    // Asked before opening: opening a pipe would wait for its writer.
+    // checked before opening: opening a pipe would wait for its writer
     let is_file = std::fs::metadata(path).map_err(ModelFault::unreadable)?.is_file();
     if !is_file {
         return Err(message!["is not a file"; "name a model file"].into());
     }
     let head = head_of(path).map_err(ModelFault::unreadable)?;
     if let Some(format) = by_content(&head) {
-        // the index of a shapefile begins as the shapes do
+        // a shapefile's index begins as its shapes do
         let is_index = format.name() == footprints::Shapefile.name() && by_ending(path).is_none();
         return companion::refusal(path).filter(|_| is_index).map_or(Ok(format), |refusal| Err(refusal.into()));
     }
@@ -107,12 +107,12 @@ pub(super) fn format_of(path: &Path) -> Result<&'static dyn Format, ModelFault> 
     })
 }
 
-/// Reads a file as one of a format.
+/// Reads a file in a given format.
 pub(super) fn read_as(format: &dyn Format, path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
     checked(Model { format: format.name(), ..format.read(path, options)? })
 }
 
-/// The model, where it holds to what every reader promises.
+/// Checks what every reader must guarantee.
 fn checked(model: Model) -> Result<Model, ModelFault> {
     let triangles = model.triangles();
     if triangles == 0 {
@@ -121,19 +121,19 @@ fn checked(model: Model) -> Result<Model, ModelFault> {
             lost => format!(" ({lost})"),
         };
         let what = format!("has no triangles, so nothing casts a shadow{lost}");
-        return Err(message![what; "export what stands there as a mesh or as solids"].into());
+        return Err(message![what; "export it as a mesh or as solids"].into());
     }
     if triangles > MAX_TRIANGLES {
-        let what = format!("has {triangles} triangles, and a model may have {MAX_TRIANGLES}");
+        let what = format!("has {triangles} triangles, but a model may have at most {MAX_TRIANGLES}");
         return Err(message![what; "export it in parts or with less detail"].into());
     }
     let corners: u64 = model.parts.iter().map(|part| part.positions.len() as u64).sum();
     if corners > 3 * MAX_TRIANGLES {
         let what = format!("has {corners} corners, more than {MAX_TRIANGLES} triangles can have");
-        return Err(message![what; "export it without points that no face has"].into());
+        return Err(message![what; "export it without unused points"].into());
     }
     if model.parts.len() > MAX_COMPONENTS {
-        let what = format!("has {} components, and a model may have {MAX_COMPONENTS}", model.parts.len());
+        let what = format!("has {} components, but a model may have at most {MAX_COMPONENTS}", model.parts.len());
         return Err(message![what; "join its objects by material, and export it again"].into());
     }
     Ok(model)
@@ -149,7 +149,7 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Model, ModelError> {
     read().map_err(|fault| ModelError { file: path.to_owned(), fault })
 }
 
-/// The files that a model names beside itself. One that cannot be read names none: whoever reads it says why.
+/// The other files that a model refers to; empty if it cannot be read, which its reader reports.
 pub(crate) fn named_by(path: &Path) -> Vec<PathBuf> {
     format_of(path).map_or_else(|_| Vec::new(), |format| format.named_by(path))
 }

@@ -1,4 +1,4 @@
-//! A file's shared vertices → the vertices that each part uses.
+//! Selects the vertices that each part uses from a file's shared ones.
 
 use crate::mesh::{CornerPrecision, Part};
 use glam::DVec3;
@@ -6,15 +6,17 @@ use glam::DVec3;
 /// A vertex that the part does not have yet.
 const ABSENT: u32 = u32::MAX;
 
-/// Gives the vertices of each part numbers of their own. Many parts may each use a few of many vertices: only those are looked at.
+/// Gives the vertices of each part indices of their own. Many parts may each use a few of many vertices: only those are
+/// visited.
 #[derive(Default)]
 pub(super) struct VertexPicker {
-    /// Per vertex of the file its number in the part at hand; all [`ABSENT`] between parts.
+    /// For each vertex of the file its index in the current part; all [`ABSENT`] between parts.
     numbers: Vec<u32>,
 }
 
 impl VertexPicker {
-    /// The vertices that triangles use, which become numbers of those. Every triangle's vertices are among `positions`.
+    /// Returns the vertices that triangles use, and changes the triangles to refer to them. All indices must be within
+    /// `positions`.
     pub(super) fn pick(&mut self, positions: &[DVec3], triangles: &mut [[u32; 3]]) -> Vec<DVec3> {
         if self.numbers.len() < positions.len() {
             self.numbers.resize(positions.len(), ABSENT);
@@ -38,7 +40,7 @@ impl VertexPicker {
     }
 }
 
-/// Says how coarse a part's numbers are where they are single-precision floats; steps up to `told_step` are not told.
+/// Records how coarse a part's numbers are if they are single-precision floats. Steps up to `told_step` are ignored.
 pub(super) fn note_floats(part: &mut Part, told_step: f64) {
     let mut found: Vec<CornerPrecision> = Vec::new();
     for (corner, position) in (0_u32..).zip(&part.positions) {

@@ -35,7 +35,7 @@ pub enum MeshError {
         km: f64,
     },
     /// A coordinate is infinite or NaN.
-    #[error("'{0}' has a corner that is no point; give finite coordinates in metres")]
+    #[error("'{0}' has a corner that is not a point; give finite coordinates in metres")]
     NoPoint(String),
     /// A triangle names a corner that its part does not have.
     #[error("'{name}' has a triangle with corner {corner}, and only {corners} corners, counted from 0")]

@@ -1,4 +1,4 @@
-//! The clocks in which rules tell their windows.
+//! The clocks in which rules give the times of their windows.
 
 use super::error::RuleError;
 use super::reader::TableReader;
@@ -6,7 +6,7 @@ use crate::choice::words;
 use crate::sun::{Place, Reading, SunError, Sunrise, Zone, true_solar};
 use chrono::{DateTime, Datelike, FixedOffset, NaiveDate, NaiveTime, Offset, TimeDelta, TimeZone, Timelike};
 
-/// Which kind of clock.
+/// A rule's word for a kind of clock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum ClockWord {
     Legal,
@@ -25,22 +25,22 @@ const CLOCK_WORDS: &[(&str, ClockWord)] = &[
 /// A clock that a rule reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RuleClock {
-    /// What clocks show there, summer time included.
+    /// The official time at the place, summer time included.
     Legal,
-    /// The same without summer time: the smaller offset of 1 January and 1 July all year.
+    /// The official time without summer time: the smaller of the offsets of 1 January and 1 July, all year.
     Standard,
-    /// An offset from UTC all year.
+    /// A fixed offset from UTC, all year.
     Fixed(FixedOffset),
-    /// A sundial's: noon is when the sun passes the meridian.
+    /// A sundial's time: it is noon when the sun crosses the meridian.
     TrueSolar,
 }
 
-/// A rule's clock, and what it calls sunrise and sunset.
+/// A rule's clock, and its definition of sunrise and sunset.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ClockRule {
-    /// In which its windows are told.
+    /// The clock that its windows are written in.
     pub clock: RuleClock,
-    /// From which windows count that begin there.
+    /// The definition of sunrise and sunset for windows that begin or end there.
     pub sunrise: Sunrise,
 }
 
@@ -50,7 +50,7 @@ words!(Sunrise, [
 ]);
 
 impl ClockRule {
-    /// What [clock] may say.
+    /// The keys that `[clock]` may have.
     pub(super) const KEYS: &[&str] = &["kind", "offset", "sunrise"];
 
     pub(super) fn read(table: TableReader) -> Result<ClockRule, RuleError> {
@@ -58,10 +58,10 @@ impl ClockRule {
         let offset = table.text("offset")?;
         let clock = match (kind, offset) {
             (ClockWord::Fixed, Some(offset)) => RuleClock::Fixed(offset.parse().map_err(|_| {
-                table.wrong("offset", format!("{offset:?} is no offset from UTC; write it as \"-05:00\""))
+                table.wrong("offset", format!("{offset:?} is not an offset from UTC; write it as \"-05:00\""))
             })?),
-            (ClockWord::Fixed, None) => return Err(table.wrong("offset", "it must be written with kind = \"fixed\"")),
-            (_, Some(_)) => return Err(table.wrong("offset", "it goes with kind = \"fixed\" alone")),
+            (ClockWord::Fixed, None) => return Err(table.wrong("offset", "it is required with kind = \"fixed\"")),
+            (_, Some(_)) => return Err(table.wrong("offset", "it is allowed only with kind = \"fixed\"")),
             (ClockWord::Legal, None) => RuleClock::Legal,
             (ClockWord::Standard, None) => RuleClock::Standard,
             (ClockWord::TrueSolar, None) => RuleClock::TrueSolar,
@@ -73,14 +73,14 @@ impl ClockRule {
 }
 
 impl RuleClock {
-    /// When the clock shows a time on a date at a place.
+    /// Returns when the clock shows `time` on a date at a place.
     ///
     /// # Errors
-    /// A legal time that does not exist or exists twice, a year outside 1600 to 2999.
+    /// A legal time that does not exist or exists twice, or a year outside 1600 to 2999.
     pub fn at(self, place: &Place, date: NaiveDate, time: NaiveTime) -> Result<DateTime<Zone>, SunError> {
         let legal = || format!("{}", time.format("%H:%M:%S")).parse::<Reading>()?.at(place, date);
         let by = |offset: FixedOffset| {
-            // dates have four digits of a year and offsets less than a day: no overflow
+            // no overflow: a date's year has four digits, and an offset is less than a day
             let utc = date.and_time(time) - TimeDelta::seconds(offset.local_minus_utc().into());
             place.time_zone.from_utc_datetime(&utc)
         };
@@ -90,15 +90,15 @@ impl RuleClock {
             RuleClock::Fixed(offset) => Ok(by(offset)),
             RuleClock::TrueSolar => {
                 let secs = i64::from(time.num_seconds_from_midnight());
-                // without a noon of its own the date has no such time, as `legal` then says
+                // a date without a solar noon has no such time; the error is the legal clock's
                 true_solar(place, date, secs)?.map_or_else(legal, Ok)
             }
         }
     }
 }
 
-/// What a zone's clock is ahead of UTC in a year without summer time. Of the two offsets of January and July it is the
-/// smaller, whatever a country calls its winter clock.
+/// A zone's offset from UTC without summer time: the smaller of the offsets of January and July, whichever of them a
+/// country calls its winter time.
 fn standard_offset(zone: Zone, year: i32) -> FixedOffset {
     let on = |month: u32| {
         let noon = NaiveDate::from_ymd_opt(year, month, 1).and_then(|date| date.and_hms_opt(12, 0, 0));

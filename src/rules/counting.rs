@@ -5,14 +5,14 @@ use super::reader::TableReader;
 use super::spell::{Spell, common, merged};
 use crate::choice::words;
 
-/// What is counted.
+/// What a rule counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Counted {
     /// Time in the sun.
     Sun,
     /// Time in shadow.
     Shadow,
-    /// Time in shadow that was in the sun before.
+    /// Time in shadow that was time in the sun before the change.
     NewShadow,
 }
 
@@ -22,18 +22,18 @@ words!(Counted, [
     "new-shadow" => Counted::NewShadow,
 ]);
 
-/// How it is counted.
+/// How spells become a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CountHow {
-    /// All spells.
+    /// The sum of all spells.
     Total,
-    /// The longest spell.
+    /// The longest spell alone.
     Longest,
-    /// The two longest spells.
+    /// The sum of the two longest spells.
     TwoLongest,
-    /// The test times that lie in a spell, each for one step, as on drawings of every hour.
+    /// The number of test times within spells, times the step: as read off hourly shadow drawings.
     Instants,
-    /// Area times time.
+    /// Area times time, as in square-foot-hours.
     AreaTime,
 }
 
@@ -45,40 +45,40 @@ words!(CountHow, [
     "area-time" => CountHow::AreaTime,
 ]);
 
-/// Gaps that do not break a spell.
+/// Short gaps that do not break a spell in two.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bridge {
-    /// The longest of them, seconds.
+    /// The longest gap that is bridged, seconds.
     pub gap_secs: i64,
-    /// Whether the gap counts as if it were no gap.
+    /// Whether the gap itself counts as time in the spell.
     pub counts: bool,
 }
 
-/// The way from spells to a number.
+/// How a list of spells becomes the number that is compared with a limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Counting {
     /// What is counted.
     pub what: Counted,
-    /// How, where a criterion does not say it otherwise.
+    /// How it is counted, unless a criterion has a `how` of its own.
     pub how: CountHow,
-    /// Shorter spells do not count, seconds.
+    /// The length from which a spell counts, seconds.
     pub shortest_secs: i64,
-    /// Gaps that do not break a spell.
+    /// The gaps that are bridged; `None` if every gap breaks a spell.
     pub bridge: Option<Bridge>,
-    /// Seconds between the test times of [`CountHow::Instants`]; 0 with the others.
+    /// The seconds between the test times of [`CountHow::Instants`]; 0 with the others.
     pub step_secs: i64,
 }
 
-/// Spells that count as one.
+/// Spells with the bridged gaps between them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Run {
-    /// From its first second to its end.
+    /// From the first spell's beginning to the last one's end.
     pub spell: Spell,
-    /// What of it counts, seconds.
+    /// The seconds of it that count.
     pub secs: i64,
 }
 
-/// What counting came to.
+/// The result of counting.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SpellCount {
     /// The number that is compared with the limit, seconds.
@@ -88,11 +88,11 @@ pub struct SpellCount {
 }
 
 impl Counting {
-    /// What [count] may say.
+    /// The keys that `[count]` may have.
     pub(super) const KEYS: &[&str] = &["what", "how", "shortest", "bridge", "bridge_counts", "step"];
 
     pub(super) fn read(table: TableReader) -> Result<Counting, RuleError> {
-        let must = |key: &'static str| table.wrong(key, "it must be written");
+        let must = |key: &'static str| table.wrong(key, "it is required");
         let bridge = table.secs("bridge")?;
         let counts = table.flag("bridge_counts")?;
         let how = table.word("how")?.ok_or_else(|| must("how"))?;
@@ -105,16 +105,22 @@ impl Counting {
             step_secs: step_secs.unwrap_or(0),
         };
         if counts && bridge.is_none() {
-            return Err(table.wrong("bridge_counts", "it needs `bridge`, the longest gap that does not break a spell"));
+            return Err(table.wrong(
+                "bridge_counts",
+                "it is allowed only with `bridge`, the longest gap that does not break a spell",
+            ));
         }
         if (how == CountHow::Instants) != (counting.step_secs > 0) {
-            return Err(table.wrong("step", "it goes with how = \"instants\", and that with a step of at least 1s"));
+            return Err(
+                table.wrong("step", "it is allowed only with how = \"instants\", which requires a step of at least 1s")
+            );
         }
         table.finish()?;
         Ok(counting)
     }
 
-    /// The spells as they count within windows: those with short gaps as one, and without those that are too short.
+    /// Returns the spells within the windows as they count: bridged over short gaps, and without those that are too
+    /// short.
     pub fn runs(&self, spells: &[Spell], windows: &[Spell]) -> Vec<Run> {
         let mut runs: Vec<Run> = Vec::new();
         for spell in common(spells, windows) {
@@ -131,14 +137,14 @@ impl Counting {
         runs
     }
 
-    /// The number that a criterion compares, of spells within windows.
+    /// Returns the number that a criterion compares with its limit.
     pub fn tally(&self, how: CountHow, spells: &[Spell], windows: &[Spell]) -> SpellCount {
         let runs = self.runs(spells, windows);
         let mut lengths: Vec<i64> = runs.iter().map(|run| run.secs).collect();
         lengths.sort_unstable_by_key(|secs| -secs);
         let of_longest = |most: usize| lengths.iter().take(most).sum();
         let secs = match how {
-            // area is another's to know
+            // areas are summed elsewhere (`judge_load`)
             CountHow::Total | CountHow::AreaTime => of_longest(usize::MAX),
             CountHow::Longest => of_longest(1),
             CountHow::TwoLongest => of_longest(2),
@@ -147,12 +153,12 @@ impl Counting {
         SpellCount { secs, longest_secs: of_longest(1) }
     }
 
-    /// How many test times lie in a run: from each window's beginning on, its end included.
+    /// The number of test times that lie in a run. They start at each window's beginning; its end is included.
     fn instants(&self, runs: &[Run], windows: &[Spell]) -> i64 {
         let step = self.step_secs.max(1);
         let mut count = 0;
         for window in merged(windows.iter().copied()) {
-            // spells have no last second, so a run up to the window's end has its last test time, too
+            // a spell excludes its end, but a run up to the window's end includes the test time there
             let in_run = |time: i64| {
                 let holds = |run: &Run| run.spell.start <= time && (time < run.spell.end || time == window.end);
                 runs.iter().any(|run| holds(run) && time <= run.spell.end)

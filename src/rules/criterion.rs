@@ -1,4 +1,4 @@
-//! What must hold for a rule to be kept.
+//! The criteria: what must hold for a rule to be kept.
 
 use super::counting::CountHow;
 use super::error::RuleError;
@@ -6,58 +6,59 @@ use super::reader::TableReader;
 use super::window::WindowRule;
 use crate::choice::words;
 
-/// What is demanded of a number.
+/// The limit of a criterion.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Demand {
-    /// So much time at least.
+    /// A least time.
     AtLeast {
-        /// Of what is counted, seconds.
+        /// The least time of what is counted, seconds.
         secs: i64,
-        /// Of the longest spell, seconds; 0 where that does not matter.
+        /// The least length of the longest spell, seconds; 0 if there is no such limit.
         longest_secs: i64,
     },
-    /// So much time at most, seconds.
+    /// The greatest time, seconds.
     AtMost(i64),
-    /// At most this share of area times time that would be lit if nothing stood there.
+    /// The greatest share of the area times time that would be lit if nothing stood there.
     ShareOfOpen(f64),
-    /// Nothing: the number is told.
+    /// No limit: the number is reported.
     Report {
-        /// Told apart where all sun goes for longer than this, seconds.
+        /// The result marks when all sun is gone for longer than this, seconds.
         no_sun_left_secs: Option<i64>,
     },
 }
 
-/// Of what it must hold.
+/// What the limit applies to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Extent {
-    /// The receiver; of an area each point of it.
+    /// The receiver as a whole; of an area, each of its points.
     Whole,
-    /// A part of an area.
+    /// A part of the area.
     Part {
-        /// Of the area, 0 to 1.
+        /// The share of the area, 0 to 1.
         share: f64,
-        /// Or so many square metres, where that is less.
+        /// An area in m² that is enough, too, if it is less than the share.
         or_area_m2: Option<f64>,
     },
-    /// As much of an area as this share of what it held for before.
+    /// This share of the area for which the limit was kept before the change.
     OfBefore(f64),
-    /// So many of the dwellings, 0 to 1, with each of the uses that the receiver names.
+    /// This share of the dwellings, 0 to 1; a dwelling keeps the limit if each of the uses that the receiver names
+    /// does.
     Dwellings(f64),
-    /// At most so many of the dwellings get nothing, 0 to 1.
+    /// The dwellings without any sun.
     Sunless {
-        /// Of the dwellings.
+        /// The greatest share of the dwellings, 0 to 1.
         most: f64,
-        /// Which dwelling gets nothing.
+        /// Which dwellings count as sunless.
         counts: SunlessWhen,
     },
 }
 
-/// When a dwelling of several uses is said to have no sun.
+/// When a dwelling of several uses counts as sunless.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SunlessWhen {
-    /// Where one of its uses has none.
+    /// If one of its uses has no sun.
     OneUse,
-    /// Where all its uses have none.
+    /// If none of its uses has sun.
     AllUses,
 }
 
@@ -69,28 +70,28 @@ words!(SunlessWhen, [
 /// One condition of a rule.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Criterion {
-    /// The days to which it is bound, by their name; empty for all.
+    /// The name of the set of days to which it applies; empty for all days.
     pub on: String,
-    /// The strip of the plane to which it is bound, from 0.
+    /// The index of the band to which it applies, from 0.
     pub band: Option<usize>,
-    /// Its grade, where the rule has grades.
+    /// Its grade, if the rule has grades.
     pub grade: Option<String>,
-    /// How is counted for it.
+    /// How spells are counted for it.
     pub how: CountHow,
-    /// Its own windows, where they are not the day's.
+    /// Its own windows, if they differ from the day's.
     pub windows: Option<WindowRule>,
-    /// What is demanded.
+    /// The limit.
     pub demand: Demand,
-    /// Of what.
+    /// What the limit applies to.
     pub extent: Extent,
-    /// Kept as well by what has this share of what was before.
+    /// The criterion is also kept if the number is at least this share of the number before.
     pub or_ratio: Option<f64>,
-    /// Kept as well where it was not kept before and nothing has become less.
+    /// The criterion is also kept if it was missed before, too, and the number has not become smaller.
     pub no_worse: bool,
 }
 
 impl Criterion {
-    /// What [[pass]] and [[any]] may say.
+    /// The keys that `[[pass]]` and `[[any]]` may have.
     pub(super) const KEYS: &[&str] = &[
         "on",
         "band",
@@ -133,34 +134,39 @@ impl Criterion {
         Ok(criterion)
     }
 
-    /// What does not go together.
+    /// Refuses keys that contradict each other.
     fn check(&self, table: &TableReader) -> Result<(), RuleError> {
         let is_time = matches!(self.demand, Demand::AtLeast { .. } | Demand::AtMost(_));
         let is_sunless = matches!(self.extent, Extent::Sunless { .. });
         let is_relative = self.or_ratio.is_some() || self.no_worse;
         if !is_time && (self.extent != Extent::Whole || is_relative || self.grade.is_some()) {
-            return Err(table.wrong("", "a share, a ratio or a grade is of at_least or at_most"));
+            return Err(table.wrong("", "a share, a ratio or a grade is allowed only with at_least or at_most"));
         }
         if self.grade.is_some() && !matches!(self.demand, Demand::AtLeast { .. }) {
-            return Err(table.wrong("grade", "it goes with at_least alone"));
+            return Err(table.wrong("grade", "it is allowed only with at_least"));
         }
         if is_sunless && self.demand != (Demand::AtLeast { secs: 1, longest_secs: 0 }) {
-            return Err(table.wrong("sunless_at_most", "it stands alone: a dwelling has sun or has none"));
+            return Err(
+                table.wrong("sunless_at_most", "no limit of time can stand beside it: a dwelling has sun or has none")
+            );
         }
         let is_of_open = matches!(self.demand, Demand::ShareOfOpen(_));
         if self.how == CountHow::AreaTime && is_time || is_of_open && self.how != CountHow::AreaTime {
-            return Err(table.wrong("how", "\"area-time\" goes with at_most_of_open or report, and that with it"));
+            return Err(table.wrong(
+                "how",
+                "\"area-time\" needs at_most_of_open or report, and at_most_of_open needs \"area-time\"",
+            ));
         }
         Ok(())
     }
 
-    /// Whether it cannot be judged without the state before.
+    /// Whether judging it needs the state before the change.
     pub fn needs_before(&self) -> bool {
         let reports_loss = matches!(self.demand, Demand::Report { no_sun_left_secs: Some(_) });
         self.or_ratio.is_some() || self.no_worse || reports_loss || matches!(self.extent, Extent::OfBefore(_))
     }
 
-    /// Whether it is of a whole house and not of its parts.
+    /// Whether it applies to a building's dwellings as a whole, and not to single receivers.
     pub fn is_of_dwellings(&self) -> bool {
         matches!(self.extent, Extent::Dwellings(_) | Extent::Sunless { .. })
     }
@@ -175,10 +181,10 @@ fn demand(table: &TableReader) -> Result<Demand, RuleError> {
     let no_sun_left_secs = table.secs("no_sun_left")?;
     let is_sunless = table.has("sunless_at_most");
     if longest.is_some() && least.is_none() {
-        return Err(table.wrong("longest_at_least", "it goes with at_least"));
+        return Err(table.wrong("longest_at_least", "it is allowed only with at_least"));
     }
     if no_sun_left_secs.is_some() && !report {
-        return Err(table.wrong("no_sun_left", "it goes with report = true"));
+        return Err(table.wrong("no_sun_left", "it is allowed only with report = true"));
     }
     match (least, most, of_open, report, is_sunless) {
         (Some(secs), None, None, false, false) => Ok(Demand::AtLeast { secs, longest_secs: longest.unwrap_or(0) }),
@@ -200,9 +206,10 @@ fn extent(table: &TableReader) -> Result<Extent, RuleError> {
         None => false,
         Some("dwellings") => true,
         Some(other) => {
-            return Err(
-                table.wrong("of", format!("{other:?} is not \"dwellings\", all that a share can be of beside an area"))
-            );
+            return Err(table.wrong(
+                "of",
+                format!("{other:?} cannot be read; write \"dwellings\", or leave it out for a share of an area"),
+            ));
         }
     };
     match (share, or_area_m2, ratio, sunless, of_dwellings) {
@@ -212,7 +219,10 @@ fn extent(table: &TableReader) -> Result<Extent, RuleError> {
         (Some(share), None, None, None, true) => Ok(Extent::Dwellings(share)),
         (None, None, None, Some(most), true) => {
             let counts = counts.ok_or_else(|| {
-                table.wrong("sunless", "write which dwelling has none: \"one\" or \"all\" of its uses")
+                table.wrong(
+                    "sunless",
+                    "it is required: a dwelling has no sun if \"one\" or \"all\" of its uses have none",
+                )
             })?;
             Ok(Extent::Sunless { most, counts })
         }
@@ -223,31 +233,31 @@ fn extent(table: &TableReader) -> Result<Extent, RuleError> {
     }
 }
 
-/// What of a dwelling must keep the criteria.
+/// The part of a dwelling that must keep the criteria.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DwellingShare {
-    /// So many rooms: the last line that begins at no more rooms than it has.
+    /// A number of rooms, by the dwelling's size: the last line whose `from` is not above the dwelling's rooms applies.
     Rooms(Vec<RoomsNeeded>),
     /// Rooms with this share of the habitable floor area, 0 to 1.
     FloorArea(f64),
 }
 
-/// How many rooms of a dwelling must keep the criteria.
+/// How many rooms must keep the criteria in dwellings of a size.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RoomsNeeded {
-    /// In dwellings with at least so many rooms.
+    /// The number of rooms from which the line applies.
     pub from: usize,
-    /// So many.
+    /// The number of rooms that must keep the criteria.
     pub needed: usize,
 }
 
 impl DwellingShare {
-    /// What [dwelling] may say.
+    /// The keys that `[dwelling]` may have.
     pub(super) const KEYS: &[&str] = &["rooms", "floor_area"];
 
     pub(super) fn read(table: TableReader) -> Result<DwellingShare, RuleError> {
         let rooms = table.value("rooms").map(|value| {
-            let what = "write a number of rooms, or lines as [[1, 1], [4, 2]]: two rooms from four rooms on";
+            let what = "write a number of rooms, or lines as [[1, 1], [4, 2]]: two rooms in dwellings of four or more";
             rooms_needed(value).ok_or_else(|| table.wrong("rooms", what))
         });
         let share = match (rooms.transpose()?, table.number("floor_area", 0.0, 1.0)?) {
@@ -259,7 +269,7 @@ impl DwellingShare {
         Ok(share)
     }
 
-    /// How many rooms are needed of so many.
+    /// Returns how many of a dwelling's rooms must keep the criteria.
     pub fn rooms_of(lines: &[RoomsNeeded], rooms: usize) -> usize {
         lines.iter().rev().find(|line| line.from <= rooms).map_or(0, |line| line.needed)
     }

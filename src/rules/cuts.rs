@@ -1,4 +1,4 @@
-//! Which sun counts: how high it must stand, and how far before a façade's plane.
+//! The cuts: how high the sun must stand to count, and how far in front of a façade's plane.
 
 use super::error::RuleError;
 use super::reader::TableReader;
@@ -8,9 +8,9 @@ use glam::DVec3;
 /// How the angle between the sun and a façade is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GrazingIn {
-    /// Between the façade's line and the sun's ray on the plan.
+    /// In plan: between the façade's line and the sun's ray.
     Plan,
-    /// Between the façade's plane and the sun's ray.
+    /// In space: between the façade's plane and the sun's ray.
     Space,
 }
 
@@ -19,16 +19,16 @@ words!(GrazingIn, [
     "space" => GrazingIn::Space,
 ]);
 
-/// Below these the sun does not count.
+/// The limits below which the sun does not count.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SunCuts {
-    /// The sun's altitude, degrees.
+    /// The least altitude, degrees.
     pub above_deg: f64,
-    /// Whether the sun must stand above it, and not at it.
+    /// Whether the sun must stand above that altitude; otherwise, at it is enough.
     pub is_strict: bool,
-    /// Its angle to the façade, degrees.
+    /// The least angle to the façade, degrees.
     pub off_facade_deg: f64,
-    /// How that is measured.
+    /// How that angle is measured.
     pub off_facade_in: GrazingIn,
 }
 
@@ -39,7 +39,7 @@ impl Default for SunCuts {
 }
 
 impl SunCuts {
-    /// What [sun] may say.
+    /// The keys that `[sun]` may have.
     pub(super) const KEYS: &[&str] = &["above", "strict", "off_facade", "off_facade_in"];
 
     pub(super) fn read(table: TableReader) -> Result<SunCuts, RuleError> {
@@ -57,8 +57,8 @@ impl SunCuts {
         Ok(cuts)
     }
 
-    /// Whether a sun counts: by its altitude in degrees and, where the receiver has an outward normal, before its plane.
-    /// A sun in the plane or behind it never counts.
+    /// Whether the sun counts: it is high enough and, if the receiver has an outward normal, far enough in front of its
+    /// plane. A sun in the plane or behind it never counts.
     pub fn admits(&self, altitude_deg: f64, to_sun: DVec3, outward: Option<DVec3>) -> bool {
         let is_high = if self.is_strict { altitude_deg > self.above_deg } else { altitude_deg >= self.above_deg };
         is_high && outward.is_none_or(|outward| self.is_before(to_sun, outward))
@@ -70,14 +70,14 @@ impl SunCuts {
             GrazingIn::Space => (to_sun, outward),
             GrazingIn::Plan => (flat(to_sun), flat(outward)),
         };
-        // a sun in the zenith, or a roof's normal, has no direction on the plan
+        // in plan, a sun at the zenith and a roof's normal have no direction
         let lengths = sun.length() * outward.length();
         let toward = sun.dot(outward);
         if !(toward > 0.0 && lengths > 0.0) {
             return false;
         }
         let angle_deg = (toward / lengths).clamp(-1.0, 1.0).asin().to_degrees();
-        // the angle's own rounding is no reason to refuse the sun that is just at it
+        // rounding must not refuse a sun exactly at the limit
         angle_deg >= self.off_facade_deg - 1e-9
     }
 }

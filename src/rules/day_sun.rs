@@ -1,4 +1,4 @@
-//! The sun of a rule's day, and when it counts for a receiver before which nothing stands.
+//! When the sun counts on a day for a receiver that nothing obstructs.
 
 use super::cuts::SunCuts;
 use super::resolved::RuleDay;
@@ -7,10 +7,10 @@ use crate::sun::{Instant, Sky, SunError};
 use chrono::{DateTime, TimeZone};
 use glam::DVec3;
 
-/// Between two of these the sun moves by a quarter of a degree, and as good as straight on.
+/// In a minute the sun moves by a quarter of a degree, and almost along a line.
 const STEP_SECS: i64 = 60;
 
-/// Where the sun is in the windows of a day, minute after minute: found once, for all receivers.
+/// The sun in the windows of a day, minute by minute: computed once for all receivers.
 #[derive(Clone, Debug)]
 pub struct DaySun {
     windows: Vec<Spell>,
@@ -26,7 +26,7 @@ struct SunMinute {
 }
 
 impl DaySun {
-    /// The sun in all windows of a day, those of single criteria too.
+    /// Computes the sun in all windows of a day, and in those of single criteria.
     ///
     /// # Errors
     /// A year outside 1600 to 2999.
@@ -43,8 +43,8 @@ impl DaySun {
         Ok(DaySun { windows, minutes })
     }
 
-    /// When the sun is up and the cuts admit it, to the second; before the plane of an outward normal, where there is one.
-    /// Where the altitude is that of a sky with air, it is the sun as it is seen.
+    /// Returns the spells, to the second, in which the sun is up and the cuts admit it, and in which it is in front of
+    /// the plane if there is an outward normal. The altitude is the apparent one if the sky has air.
     pub fn open(&self, cuts: &SunCuts, outward: Option<DVec3>) -> Vec<Spell> {
         let counts = |sun: &SunMinute| {
             // below 0 it is night, as in every study
@@ -61,20 +61,20 @@ impl DaySun {
                 (false, false) => {}
             }
         }
-        // two windows are not joined by the time between them
+        // windows that touch are not joined
         common(&spells, &self.windows)
     }
 }
 
 impl SunMinute {
     fn at(sky: &Sky, secs: i64) -> Result<SunMinute, SunError> {
-        // a day's windows lie within the years that chrono knows
+        // cannot fail: a day's windows lie within the years that chrono knows
         let utc = DateTime::from_timestamp(secs, 0).unwrap_or_default().naive_utc();
         let sun: Instant = sky.at(sky.place.time_zone.from_utc_datetime(&utc))?;
         Ok(SunMinute { secs, to_sun: sun.to_sun, altitude_deg: sun.altitude_deg() })
     }
 
-    /// The sun between this and another minute.
+    /// The sun at a second between this minute and another one, interpolated.
     fn between(&self, other: &SunMinute, secs: i64) -> SunMinute {
         let part = (secs - self.secs) as f64 / (other.secs - self.secs) as f64;
         SunMinute {
@@ -85,7 +85,7 @@ impl SunMinute {
     }
 }
 
-/// The first second after one minute at which it is as at the next; they differ.
+/// The first second at which the sun counts, or does not, as it does at the later minute. The two minutes must differ.
 fn first_like(before: SunMinute, after: SunMinute, counts: &impl Fn(&SunMinute) -> bool) -> i64 {
     let is = counts(&after);
     let (mut other, mut like) = (before.secs, after.secs);

@@ -1,4 +1,4 @@
-//! The days on which a rule counts, and how they are put together.
+//! The days on which a rule counts, and how the verdicts of several days become one.
 
 use super::error::RuleError;
 use super::reader::TableReader;
@@ -18,31 +18,32 @@ words!(Season, [
 /// A day of every year.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DayName {
-    /// A month and a day of it, which all years have.
+    /// A month and a day that every year has.
     MonthDay(u32, u32),
-    /// The local date on which the sun reaches a point of its year.
+    /// The local date of an equinox, a solstice or another solar term.
     Season(Season),
 }
 
-/// Which days.
+/// A set of dates.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Dates {
     /// Single days, in this order.
     Named(Vec<DayName>),
-    /// All days from one to another, both included; over New Year where the first is later in the year.
+    /// All days from the first to the second, both included. The range reaches over New Year if the first is later in
+    /// the year.
     Range([DayName; 2]),
 }
 
-/// How the verdicts of several days are one.
+/// How the verdicts of several days become one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DayJudge {
-    /// All days must pass, and each is told.
+    /// All days must pass, and each is reported.
     Each,
-    /// All days must pass, and the worst is told.
+    /// All days must pass, and the worst is reported.
     Worst,
-    /// One day must pass; the best is told.
+    /// One day must pass, and the best is reported.
     Best,
-    /// What is counted is added up over all days.
+    /// What is counted is added up over the days.
     Sum,
 }
 
@@ -53,24 +54,24 @@ words!(DayJudge, [
     "sum" => DayJudge::Sum,
 ]);
 
-/// Days, and the part of each in which is counted.
+/// A set of days with the same windows.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DaySet {
-    /// By which criteria are bound to it; empty where none is.
+    /// The name by which criteria refer to it; empty if none does.
     pub name: String,
-    /// Which days.
+    /// Its dates.
     pub dates: Dates,
-    /// How they are one.
+    /// How the days' verdicts become one.
     pub judge: DayJudge,
-    /// The part of each.
+    /// The windows of each day.
     pub windows: WindowRule,
 }
 
 impl DayName {
-    /// A date that every year has, `03-21`, or the name of a point of the sun's year; or why it is neither.
+    /// Reads a date that every year has, such as `03-21`, or the name of a season's point, such as `march-equinox`.
     ///
     /// # Errors
-    /// What can be written instead.
+    /// A message that says what can be written instead.
     pub fn parse(text: &str) -> Result<DayName, String> {
         if let Some((_, season)) = Season::WORDS.iter().find(|(word, _)| *word == text) {
             return Ok(DayName::Season(*season));
@@ -84,10 +85,12 @@ impl DayName {
             return Ok(DayName::MonthDay(month, day));
         }
         let nearest = nearest(text, Season::WORDS.iter().map(|(word, _)| *word)).unwrap_or_default();
-        Err(format!("{text:?} is no day of every year; write month and day as \"03-21\", or for example \"{nearest}\""))
+        Err(format!(
+            "{text:?} is not a day of every year; write month and day as \"03-21\", or for example \"{nearest}\""
+        ))
     }
 
-    /// Its date in a year at a place.
+    /// Returns its date in a year at a place.
     ///
     /// # Errors
     /// A year outside 1600 to 2999.
@@ -98,7 +101,7 @@ impl DayName {
         }
     }
 
-    /// Where in the year it is, within a day.
+    /// Its month and day; of a season's point, to within a day.
     pub(super) fn month_day(self) -> (u32, u32) {
         match self {
             DayName::MonthDay(month, day) => (month, day),
@@ -108,7 +111,7 @@ impl DayName {
 }
 
 impl Dates {
-    /// The dates of a year, in this order; those of a range over New Year reach into the next one.
+    /// Returns the dates of a year, in order. Those of a range over New Year reach into the next year.
     ///
     /// # Errors
     /// A year outside 1600 to 2999.
@@ -127,7 +130,7 @@ impl Dates {
 }
 
 impl DaySet {
-    /// What [[day]] may say.
+    /// The keys that `[[day]]` may have.
     pub(super) const KEYS: &[&str] = &["name", "days", "range", "judge", "windows"];
 
     pub(super) fn read(table: TableReader) -> Result<DaySet, RuleError> {
@@ -146,9 +149,9 @@ impl DaySet {
         };
         let judge = table.word("judge")?;
         if judge.is_none() && !matches!(&dates, Dates::Named(names) if names.len() == 1) {
-            return Err(table.wrong("judge", "several days need it: each, worst, best or sum"));
+            return Err(table.wrong("judge", "it is required with several days: each, worst, best or sum"));
         }
-        let windows = WindowRule::read(&table)?.ok_or_else(|| table.wrong("windows", "it must be written"))?;
+        let windows = WindowRule::read(&table)?.ok_or_else(|| table.wrong("windows", "it is required"))?;
         let name = table.text("name")?.unwrap_or_default().to_owned();
         table.finish()?;
         Ok(DaySet { name, dates, judge: judge.unwrap_or(DayJudge::Each), windows })

@@ -1,34 +1,34 @@
-//! Why a rule cannot be read, found, or applied.
+//! Errors of reading, finding and applying rules.
 
-/// What is wrong with a rule, or with what is chosen of it; each says where it is, and the way out.
+/// What is wrong with a rule or with the values of its options. Each message says where, and what to do.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum RuleError {
-    /// The text is no TOML.
+    /// The text is not TOML.
     #[error("rule {rule}: {what}")]
     Toml {
-        /// Which rule.
+        /// The rule's id, or its file until the id is known.
         rule: String,
-        /// What the reader of TOML says.
+        /// The message of the TOML parser.
         what: String,
     },
-    /// A key that no rule has.
+    /// A key that its table does not have.
     #[error("rule {rule}, {at}: there is no key `{key}` here; the nearest is `{nearest}`")]
     UnknownKey {
-        /// Which rule.
+        /// The rule.
         rule: String,
-        /// In which table.
+        /// The table.
         at: String,
-        /// As written.
+        /// The key as written.
         key: String,
-        /// What was probably meant.
+        /// The nearest key that exists.
         nearest: String,
     },
-    /// A value that the key cannot have, or a key that is missing or does not go with the others.
+    /// A value that the key does not allow, or a key that is missing or contradicts the others.
     #[error("rule {rule}, {at}: {what}")]
     Value {
-        /// Which rule.
+        /// The rule.
         rule: String,
-        /// At which key.
+        /// The table and the key.
         at: String,
         /// What is wrong, and what can be written.
         what: String,
@@ -36,39 +36,39 @@ pub enum RuleError {
     /// An option that the rule does not have.
     #[error("rule {rule} has no option `{name}`; {known}")]
     UnknownOption {
-        /// Which rule.
+        /// The rule.
         rule: String,
-        /// As written.
+        /// The option as written.
         name: String,
-        /// The nearest one, or that it has none.
+        /// The nearest option, or that the rule has none.
         known: String,
     },
-    /// An option that cannot have the value.
+    /// A value that the option does not allow.
     #[error("rule {rule}, option `{name}`: {value} is not {takes}")]
     OptionValue {
-        /// Which rule.
+        /// The rule.
         rule: String,
         /// The option.
         name: String,
-        /// As written.
+        /// The value as written.
         value: String,
-        /// What it can be.
+        /// What the option allows.
         takes: String,
     },
-    /// Options without a default that nobody has chosen, all of them.
-    #[error("rule {rule} leaves to the authority, and you must say: {missing}")]
+    /// Options without a default that were not given a value, all of them.
+    #[error("rule {rule} has options without a default, and you must choose: {missing}")]
     Unsaid {
-        /// Which rule.
+        /// The rule.
         rule: String,
-        /// Each with its meaning and its choices.
+        /// The options, each with its meaning and its values.
         missing: String,
     },
-    /// A rule that is neither beside the site nor built in.
-    #[error("there is no rule {id}; the nearest is {nearest}")]
+    /// A rule that is neither in the site's folder nor built in.
+    #[error("there is no rule `{id}`; the nearest is `{nearest}`")]
     UnknownRule {
-        /// As written.
+        /// The id as written.
         id: String,
-        /// What was probably meant.
+        /// The nearest id.
         nearest: String,
     },
     /// A file that cannot be read as a rule.
@@ -79,10 +79,10 @@ pub enum RuleError {
         /// What is wrong with it.
         what: String,
     },
-    /// What the rule needs and the site does not say.
+    /// Information that the rule needs and the site does not have.
     #[error("rule {rule} needs {what}")]
     Needs {
-        /// Which rule.
+        /// The rule.
         rule: String,
         /// What is missing.
         what: String,

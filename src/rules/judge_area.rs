@@ -1,4 +1,4 @@
-//! Judges parts of areas, and area times time.
+//! Judges criteria on parts of areas, and shadow as area times time.
 
 use super::criterion::{Criterion, Demand, Extent};
 use super::error::RuleError;
@@ -6,14 +6,14 @@ use super::resolved::{ResolvedRule, RuleDay};
 use super::verdict::{DayCase, Finding, Quantity, Ruling, Verdict};
 use super::weigh::{Weight, verdict_of};
 
-/// How much of an area keeps a criterion's demand on a day.
+/// How much of an area keeps a criterion's limit on a day.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PartMet {
-    /// Square metres.
+    /// The area that keeps it, square metres.
     pub now_m2: f64,
-    /// The same of the state before.
+    /// The same area in the state before.
     pub before_m2: Option<f64>,
-    /// Both are known to so much, up and down, square metres.
+    /// The uncertainty of both, ± square metres.
     pub error_m2: f64,
 }
 
@@ -22,26 +22,26 @@ pub struct PartMet {
 pub struct AreaLight<'a> {
     /// The day.
     pub day: &'a RuleDay,
-    /// For each criterion; nothing for those that are not of parts of areas.
+    /// One for each criterion; `None` for those that are not about parts of areas.
     pub met: Vec<Option<PartMet>>,
 }
 
-/// How much new shadow falls on an area on one day.
+/// The new shadow on an area on one day.
 #[derive(Clone, Copy, Debug)]
 pub struct ShadowLoad<'a> {
     /// The day.
     pub day: &'a RuleDay,
-    /// Square metres times seconds.
+    /// Its area times its duration, square metres times seconds.
     pub m2_secs: f64,
-    /// It is known to so much, up and down.
+    /// The uncertainty of that, ± square metres times seconds.
     pub error_m2_secs: f64,
 }
 
 impl ResolvedRule {
-    /// The ruling on an area of which a part must keep the demand.
+    /// Returns the ruling on an area by the parts of it that keep the criteria.
     ///
     /// # Errors
-    /// [`RuleError::Needs`] where the rule compares with a state that is not there, or an area has no size.
+    /// [`RuleError::Needs`] if the rule compares with a state that the site does not have, or if the area is empty.
     pub fn judge_parts(&self, area_m2: f64, days: &[AreaLight]) -> Result<Ruling, RuleError> {
         self.check_area(area_m2)?;
         let mut cases = Vec::new();
@@ -68,7 +68,7 @@ impl ResolvedRule {
         Err(RuleError::Needs { rule: self.id.clone(), what: "areas of more than 0 m²".to_owned() })
     }
 
-    /// Nothing where the criterion is not of parts of areas.
+    /// `None` if the criterion is not about parts of areas.
     fn part(
         &self,
         number: usize,
@@ -83,7 +83,7 @@ impl ResolvedRule {
             Extent::Part { share, or_area_m2 } => {
                 ((share * area_m2).min(or_area_m2.unwrap_or(f64::INFINITY)), met.error_m2)
             }
-            // both sides are known to the error
+            // both areas have the error
             Extent::OfBefore(ratio) => (ratio * met.before_m2.unwrap_or(0.0), met.error_m2 * (1.0 + ratio)),
             Extent::Whole | Extent::Dwellings(_) | Extent::Sunless { .. } => return Ok(None),
         };
@@ -103,10 +103,10 @@ impl ResolvedRule {
         }))
     }
 
-    /// The ruling on new shadow on an area, added up over days.
+    /// Returns the ruling on the new shadow on an area, added up over days.
     ///
     /// # Errors
-    /// [`RuleError::Needs`] where the area has no size.
+    /// [`RuleError::Needs`] if the area is empty.
     pub fn judge_load(&self, area_m2: f64, days: &[ShadowLoad]) -> Result<Ruling, RuleError> {
         self.check_area(area_m2)?;
         let mut cases = Vec::new();

@@ -1,4 +1,4 @@
-//! Judges dwellings by their rooms, and houses by their dwellings.
+//! Judges dwellings by their rooms, and buildings by their dwellings.
 
 use super::criterion::{Criterion, Demand, DwellingShare, Extent, SunlessWhen};
 use super::error::RuleError;
@@ -7,40 +7,40 @@ use super::resolved::ResolvedRule;
 use super::verdict::{DayCase, Finding, Quantity, Ruling, Verdict};
 use super::weigh::reaches;
 
-/// What a room came to.
+/// A room's result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoomRuling {
     /// Its verdict.
     pub verdict: Verdict,
-    /// Its floor area, square metres; not needed where rooms are counted.
+    /// Its floor area, square metres; not used if rooms are counted.
     pub floor_m2: f64,
 }
 
-/// What a dwelling came to.
+/// A dwelling's result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DwellingRuling {
     /// Its verdict.
     pub verdict: Verdict,
-    /// How many rooms, or what share of the floor area, keep the criteria.
+    /// The number of rooms, or the share of the floor area, that keeps the criteria.
     pub value: Quantity,
-    /// How many, or what share, must.
+    /// The number or share that must keep them.
     pub limit: Quantity,
 }
 
-/// How long each use of a dwelling is lit.
+/// The time in which each use of a dwelling is lit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DwellingSun {
-    /// What it is called.
+    /// The dwelling's name.
     pub name: String,
-    /// Each use and its seconds, counted for the criterion.
+    /// Each use with its time, seconds, as the criterion counts it.
     pub uses: Vec<(String, i64)>,
 }
 
 impl ResolvedRule {
-    /// The verdict of a dwelling by its rooms; nothing where the rule does not speak of dwellings.
+    /// Returns the verdict on a dwelling by its rooms, or `None` if the rule has no criteria for dwellings.
     ///
     /// # Errors
-    /// [`RuleError::Needs`] for a dwelling without rooms, or without floor areas where they count.
+    /// [`RuleError::Needs`] for a dwelling without rooms, or if floor areas count and one is missing.
     pub fn judge_dwelling(&self, rooms: &[RoomRuling]) -> Result<Option<DwellingRuling>, RuleError> {
         let needs = |what: &str| RuleError::Needs { rule: self.id.clone(), what: what.to_owned() };
         let Some(share) = &self.dwelling else { return Ok(None) };
@@ -81,11 +81,11 @@ impl ResolvedRule {
         }))
     }
 
-    /// The ruling on a house by its dwellings: for each criterion of dwellings, in their order, the dwellings as it counts
-    /// them.
+    /// Returns the ruling on a building by its dwellings. `counted` has one list for each criterion on dwellings, in
+    /// their order: the dwellings with the times that the criterion counts.
     ///
     /// # Errors
-    /// [`RuleError::Needs`] for a house without dwellings, and a dwelling that lacks one of the uses.
+    /// [`RuleError::Needs`] for a building without dwellings, or a dwelling without one of the uses.
     pub fn judge_house(&self, counted: &[Vec<DwellingSun>]) -> Result<Ruling, RuleError> {
         let of_dwellings = self.criteria.iter().enumerate().filter(|(_, criterion)| criterion.is_of_dwellings());
         let mut findings = Vec::new();

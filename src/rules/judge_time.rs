@@ -1,4 +1,5 @@
-//! Judges what is lit or not as one: a point, a window, or an area of which any part is lit.
+//! Judges receivers that are either lit or not as a whole: a point, a window, or an area that counts as lit if any part
+//! of it is.
 
 use super::counting::{CountHow, Counted, SpellCount};
 use super::criterion::{Criterion, Demand, Extent};
@@ -9,19 +10,20 @@ use super::spell::{Spell, without};
 use super::verdict::{DayCase, Excuse, Finding, Quantity, Ruling, Verdict};
 use super::weigh::Weight;
 
-/// When one receiver is lit on one day.
+/// When a receiver is lit on one day.
 #[derive(Clone, Copy, Debug)]
 pub struct DayLight<'a> {
     /// The day.
     pub day: &'a RuleDay,
-    /// When it would be in a sun that counts if nothing stood there: the sun is up, high enough and before its plane. What
-    /// of it is not lit is shadow; the night is none.
+    /// When a sun that counts would light the receiver if nothing stood in the way: the sun is up, high enough, and in
+    /// front of its plane. Time in `open` but not in `lit` is shadow; night is not.
     pub open: &'a [Spell],
-    /// When it is in a sun that counts.
+    /// When a sun that counts lights it.
     pub lit: &'a [Spell],
-    /// The same of the state before, or of the body that the law allows.
+    /// The same in the state before, or with the body that the law allows.
     pub before: Option<&'a [Spell]>,
-    /// When any part of it lies in shadow that was lit before; where it is one point this is found from the two others.
+    /// When any part of it lies in shadow that was lit before. Not needed for a single point, for which it follows from
+    /// the other fields.
     pub newly_shaded: Option<&'a [Spell]>,
 }
 
@@ -48,11 +50,11 @@ impl CountedDay {
 }
 
 impl ResolvedRule {
-    /// The ruling on a receiver; of a plane around a plot on a point in one of its bands. Criteria of parts of areas and of
-    /// dwellings are not its own: where there are no others it reports.
+    /// Returns the ruling on a receiver, or on a point of a rule's level plane in one of its bands. Criteria on parts
+    /// of areas and on dwellings are left out; if there are no others, the verdict is [`Verdict::Report`].
     ///
     /// # Errors
-    /// [`RuleError::Needs`] where the rule compares with a state that is not there.
+    /// [`RuleError::Needs`] if the rule compares with a state that the site does not have.
     pub fn judge_time(&self, band: Option<usize>, days: &[DayLight]) -> Result<Ruling, RuleError> {
         let mut cases: Vec<DayCase> = Vec::new();
         let mut sums: Vec<Vec<Option<CountedDay>>> = vec![vec![None; self.criteria.len()]; self.days.len()];
@@ -80,14 +82,15 @@ impl ResolvedRule {
         Ok(self.ruling(cases))
     }
 
-    /// The windows of a criterion that is of a receiver as one, on a day on which it counts.
+    /// The windows of a criterion on a day; `None` if it does not apply to the day or the band, or not to the receiver
+    /// as a whole.
     fn own_windows<'a>(&self, number: usize, band: Option<usize>, day: &'a RuleDay) -> Option<&'a [Spell]> {
         let criterion = self.criteria.get(number).filter(|of| of.band == band && of.extent == Extent::Whole)?;
         debug_assert!(!criterion.is_of_dwellings());
         day.criteria.get(number)?.as_deref()
     }
 
-    /// What a criterion counts of a receiver on a day; seconds for the state as it is.
+    /// Returns the time, in seconds, that a criterion counts for a receiver on a day, in the state as it is now.
     pub fn tally(&self, criterion: usize, light: &DayLight) -> Result<SpellCount, RuleError> {
         let windows = light.day.criteria.get(criterion).and_then(Option::as_deref);
         match (self.criteria.get(criterion), windows) {
@@ -135,7 +138,7 @@ impl ResolvedRule {
         let (verdict, excuse, limit, margin) = match criterion.demand {
             Demand::AtLeast { secs, longest_secs } => at_least(criterion, secs, longest_secs, now, before, reference),
             Demand::AtMost(secs) => at_most(secs, now, reference),
-            // area is another's to judge
+            // `judge_load` judges areas
             Demand::ShareOfOpen(_) | Demand::Report { .. } => (Verdict::Report, None, None, None),
         };
         Ok(Finding {
@@ -153,7 +156,7 @@ impl ResolvedRule {
     }
 }
 
-/// Verdict, excuse, limit and margin.
+/// A verdict, its excuse, its limit and its margin.
 type Held = (Verdict, Option<Excuse>, Option<i64>, Option<i64>);
 
 fn at_least(
@@ -164,7 +167,7 @@ fn at_least(
     before: Option<SpellCount>,
     reference: Option<SpellCount>,
 ) -> Held {
-    // where a longest spell is asked for as well, what is missing of either decides
+    // with a limit for the longest spell, too, the larger shortfall decides
     let of_longest = if longest_secs > 0 { now.longest_secs - longest_secs } else { i64::MAX };
     let margin = (now.secs - secs).min(of_longest);
     let numbers = Weight {

@@ -1,4 +1,4 @@
-//! Every key that a rule may have, table by table.
+//! Every key that a rule may have, by table.
 
 use super::clock::ClockRule;
 use super::counting::Counting;
@@ -10,7 +10,7 @@ use super::receiver::RuleReceiver;
 use super::resolved::COMPARE_KEYS;
 use super::rule::SOURCE_KEYS;
 
-/// The tables as they are headed, and the keys of each. Beside them tables in lists may have `when`.
+/// The tables as their headings are written, with the keys of each. A table in a list may have `when` besides.
 pub const RULE_KEYS: &[(&str, &[&str])] = &[
     ("[rule]", SOURCE_KEYS),
     ("[options.NAME]", RuleOption::KEYS),

@@ -1,4 +1,4 @@
-//! The rules that are built in, and those that stand beside a site.
+//! The built-in rules, and those in a site's folder.
 
 use super::error::RuleError;
 use super::rule::Rule;
@@ -6,7 +6,7 @@ use crate::choice::nearest;
 use std::fs;
 use std::path::Path;
 
-/// One built-in rule: its id and its text.
+/// A built-in rule: its id and its text.
 type BuiltIn = (&'static str, &'static str);
 
 macro_rules! built_in {
@@ -36,21 +36,21 @@ pub const BUILT_IN: &[BuiltIn] = built_in![
     "us-sf-295",
 ];
 
-/// The largest file that is read as a rule; the built-in ones have some thousand bytes.
+/// The largest file that is read as a rule. The built-in ones have a few thousand bytes.
 const MOST_BYTES: u64 = 64 << 10;
 
 /// All built-in rules.
 ///
 /// # Errors
-/// None: a test reads them all.
+/// Never: a test reads them all.
 pub fn built_in_rules() -> Result<Vec<Rule>, RuleError> {
     BUILT_IN.iter().map(|(id, text)| Rule::parse(id, text)).collect()
 }
 
-/// The text of a built-in rule.
+/// Returns the text of a built-in rule.
 ///
 /// # Errors
-/// [`RuleError::UnknownRule`] with the nearest one.
+/// [`RuleError::UnknownRule`], which names the nearest one.
 pub fn built_in_text(id: &str) -> Result<&'static str, RuleError> {
     match BUILT_IN.iter().find(|(known, _)| *known == id) {
         Some((_, text)) => Ok(text),
@@ -61,11 +61,11 @@ pub fn built_in_text(id: &str) -> Result<&'static str, RuleError> {
     }
 }
 
-/// The rule of a name for a site in a folder: the file `NAME.toml` there, or `NAME` itself where it ends so; else the
-/// built-in one.
+/// Returns the rule of a name for a site in a folder: from the file `NAME.toml` there (or `NAME`, if that already ends
+/// in `.toml`), otherwise the built-in one.
 ///
 /// # Errors
-/// A name that is neither, a file that is no rule.
+/// A name that is neither, or a file that is not a rule.
 pub fn rule_for_site(name: &str, folder: &Path) -> Result<Rule, RuleError> {
     let is_file = name.ends_with(".toml");
     let path = folder.join(if is_file { name.to_owned() } else { format!("{name}.toml") });
@@ -79,7 +79,7 @@ fn text_of(path: &Path) -> Result<String, RuleError> {
     let wrong = |what: String| RuleError::File { path: path.display().to_string(), what };
     let about = fs::metadata(path).map_err(|error| wrong(format!("cannot be read: {error}")))?;
     if !about.is_file() || about.len() > MOST_BYTES {
-        return Err(wrong("is no file of a rule, which has at most 64 KiB of text".to_owned()));
+        return Err(wrong("is not a rule, which is a text file of at most 64 KiB".to_owned()));
     }
     let bytes = fs::read(path).map_err(|error| wrong(format!("cannot be read: {error}")))?;
     String::from_utf8(bytes).map_err(|_| wrong("is not UTF-8; save it as UTF-8".to_owned()))

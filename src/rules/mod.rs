@@ -1,9 +1,10 @@
-//! Rules of authorities as data: on which days, by which clock and in which windows the sun counts, how it is counted, and
-//! what must hold.
+//! What authorities require of sunlight, as data: on which days, by which clock and in which windows the sun counts,
+//! how it is counted, and what must hold.
 //!
-//! A [`Rule`] is read from TOML; [`Rule::resolve`] chooses its options and leaves plain values, [`ResolvedRule::calendar`]
-//! has its days and windows at a place, and [`DaySun`] the sun that counts in them. From spells and areas, which others find, the functions `judge_…` make a verdict
-//! with its margin. `docs/rules` has a page for each built-in rule.
+//! A [`Rule`] is read from TOML. [`Rule::resolve`] sets its options, [`ResolvedRule::calendar`] returns its days and
+//! windows at a place, and [`DaySun`] the spells in which the sun counts. Other modules find the spells and the lit
+//! areas; the functions `judge_…` turn them into a verdict with its margin. `docs/rules` has a page for each built-in
+//! rule.
 
 mod clock;
 mod counting;

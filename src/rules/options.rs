@@ -1,4 +1,4 @@
-//! What a rule leaves to an authority, and how what is chosen gets into the rule.
+//! A rule's options: what it leaves to an authority, and how the values are put into the rule.
 
 use super::days::DayName;
 use super::error::RuleError;
@@ -7,18 +7,18 @@ use crate::choice::{listed, words};
 use std::collections::{BTreeMap, BTreeSet};
 use toml::{Table, Value};
 
-/// What an option can be.
+/// The type of an option.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OptionType {
-    /// `2h`
+    /// A duration, `2h`.
     Duration,
-    /// `0.5`
+    /// A number, `0.5`.
     Number,
-    /// One of some words.
+    /// One of a list of words.
     Word,
-    /// `true` or `false`
+    /// `true` or `false`.
     Flag,
-    /// `03-21`, or the name of a point of the sun's year.
+    /// `03-21`, or the name of a season's point.
     Day,
 }
 
@@ -30,7 +30,7 @@ words!(OptionType, [
     "day" => OptionType::Day,
 ]);
 
-/// What is chosen of an option.
+/// The value of an option.
 #[derive(Clone, Debug, PartialEq)]
 pub enum OptionValue {
     /// Seconds.
@@ -39,12 +39,12 @@ pub enum OptionValue {
     Number(f64),
     /// A word, or a day.
     Word(String),
-    /// Yes or no.
+    /// True or false.
     Flag(bool),
 }
 
 impl OptionValue {
-    /// As it is written in a rule and on the command line.
+    /// As the value is written in a rule and on the command line.
     pub fn text(&self) -> String {
         match self {
             OptionValue::Duration(secs) => duration_text(*secs),
@@ -56,7 +56,7 @@ impl OptionValue {
 
     fn to_toml(&self) -> Value {
         match self {
-            // where a whole number is meant no other can be read
+            // an integer is written without a point, since a count is not read with one
             OptionValue::Number(number) if number.fract() == 0.0 && number.abs() < 1e15 => {
                 Value::Integer(*number as i64)
             }
@@ -67,7 +67,7 @@ impl OptionValue {
     }
 }
 
-/// `1h30min`, as durations are read.
+/// Writes a duration as rules read it: `1h30min`.
 pub fn duration_text(secs: i64) -> String {
     let parts = [(secs / 3600, "h"), (secs / 60 % 60, "min"), (secs % 60, "s")];
     let text: String =
@@ -75,37 +75,37 @@ pub fn duration_text(secs: i64) -> String {
     if text.is_empty() { "0s".to_owned() } else { text }
 }
 
-/// More values than this no option needs, and a rule is tried with each.
+/// The most values of an option. A rule is tried with each of them.
 const MOST_VALUES: usize = 100;
 
-/// One option of a rule.
+/// An option of a rule.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RuleOption {
     /// Its name.
     pub name: String,
     /// What it decides.
     pub meaning: String,
-    /// What it can be.
+    /// Its type.
     pub kind: OptionType,
-    /// The only values that it can have; empty where others can be, too.
+    /// The only values that are allowed; empty if there is no such list.
     pub one_of: Vec<OptionValue>,
-    /// The smallest and the largest number, duration in seconds, or day, as 321 is 21 March.
+    /// The least and the greatest value: numbers, durations in seconds, days as 321 for 21 March.
     pub between: [f64; 2],
-    /// Words that it can be beside its type.
+    /// Words that are allowed besides values of its type.
     pub words: Vec<String>,
-    /// Values that have a name, such as a country's.
+    /// Values with names, such as a country's.
     pub known: Vec<(String, OptionValue)>,
-    /// What it is where nobody says it; without it somebody must.
+    /// Its value if none is given; `None` if one must be given.
     pub default: Option<OptionValue>,
 }
 
 impl RuleOption {
-    /// What [options.NAME] may say.
+    /// The keys that `[options.NAME]` may have.
     pub(super) const KEYS: &[&str] = &["means", "type", "one_of", "least", "most", "words", "known", "default"];
 
     pub(super) fn read(rule: &str, name: &str, table: TableReader) -> Result<RuleOption, RuleError> {
         let meaning = table.must_text("means")?.to_owned();
-        let kind = table.word("type")?.ok_or_else(|| table.wrong("type", "it must be written"))?;
+        let kind = table.word("type")?.ok_or_else(|| table.wrong("type", "it is required"))?;
         let bound = |key: &'static str, otherwise: f64| match kind {
             OptionType::Duration => Ok(table.secs(key)?.map_or(otherwise, |secs| secs as f64)),
             OptionType::Number => Ok(table.number(key, f64::MIN, f64::MAX)?.unwrap_or(otherwise)),
@@ -113,7 +113,7 @@ impl RuleOption {
                 let day = table.text(key)?.map(DayName::parse).transpose();
                 Ok(day.map_err(|what| table.wrong(key, what))?.map_or(otherwise, day_number))
             }
-            // what has no order has no bounds, as `finish` then says
+            // words and flags have no bounds; `finish` refuses them
             OptionType::Word | OptionType::Flag => Ok(otherwise),
         };
         let between = [bound("least", f64::NEG_INFINITY)?, bound("most", f64::INFINITY)?];
@@ -147,13 +147,13 @@ impl RuleOption {
             return Err(table.wrong("one_of", format!("an option has at most {MOST_VALUES} values")));
         }
         if kind == OptionType::Word && option.one_of.is_empty() {
-            return Err(table.wrong("one_of", "an option of words needs the list of them"));
+            return Err(table.wrong("one_of", "an option of type \"word\" needs the list of its words"));
         }
         table.finish()?;
         Ok(option)
     }
 
-    /// What is written for it.
+    /// Reads a value.
     ///
     /// # Errors
     /// [`RuleError::OptionValue`].
@@ -194,7 +194,7 @@ impl RuleOption {
         }
     }
 
-    /// What it can be, in words: `2h or 3h`.
+    /// What the option allows, in words: `2h or 3h`.
     pub fn takes(&self) -> String {
         let named = self.known.iter().map(|(name, value)| format!("{name} ({})", value.text()));
         let more = self.words.iter().cloned().chain(named);
@@ -223,13 +223,13 @@ impl RuleOption {
         };
         match (least.is_finite(), most.is_finite()) {
             (true, true) => format!("{kind} from {} to {}", bound(least), bound(most)),
-            (true, false) => format!("{kind} from {} on", bound(least)),
-            (false, true) => format!("{kind} up to {}", bound(most)),
+            (true, false) => format!("{kind} of at least {}", bound(least)),
+            (false, true) => format!("{kind} of at most {}", bound(most)),
             (false, false) => kind.to_owned(),
         }
     }
 
-    /// Values with which a rule is tried: all that it can have, or some where it can have any.
+    /// Values with which a rule is tried: all that are allowed, or a few if there is no list.
     pub(super) fn samples(&self) -> Vec<OptionValue> {
         let mut samples = self.one_of.clone();
         samples.extend(self.default.clone());
@@ -255,7 +255,7 @@ impl RuleOption {
     }
 }
 
-/// A day of the year as a number that orders days: 321 is 21 March.
+/// A day of the year as a number: 321 for 21 March.
 fn day_number(day: DayName) -> f64 {
     let (month, day) = day.month_day();
     f64::from(100 * month + day)
@@ -270,7 +270,7 @@ fn is_word(text: &str) -> bool {
     !text.is_empty() && text.chars().all(|c| c.is_alphanumeric() || c == '-' || c == '_')
 }
 
-/// A value as it would be said.
+/// A value as it is written in a rule.
 fn written(value: &Value) -> Option<String> {
     match value {
         Value::String(text) => Some(text.clone()),
@@ -279,11 +279,11 @@ fn written(value: &Value) -> Option<String> {
     }
 }
 
-/// What is chosen, by the options' names.
+/// The options' values by name.
 pub(super) type Choices = BTreeMap<String, OptionValue>;
 
-/// The tables of a rule with what is chosen in them: `"$hours"` is the option's value, within a longer text its text; and
-/// of tables in a list those alone whose `when` is true.
+/// A rule's table with the options put in: `"$hours"` becomes the option's value, or its text within a longer text. Of
+/// tables in a list, those remain whose `when` holds.
 pub(super) fn chosen_in(rule: &str, table: &Table, choices: &Choices) -> Result<Table, RuleError> {
     let mut chosen = Table::new();
     for (key, value) in table {
@@ -336,14 +336,14 @@ fn is_name_letter(c: char) -> bool {
     c.is_ascii_lowercase() || c == '_'
 }
 
-/// Whether all that a `when` says is chosen: `{ hokkaido = true, zone = "!low" }`.
+/// Whether all conditions of a `when` hold, such as `{ hokkaido = true, zone = "!low" }`.
 fn holds(rule: &str, key: &str, when: &Value, choices: &Choices) -> Result<bool, RuleError> {
     let wrong = |what: String| RuleError::Value { rule: rule.to_owned(), at: format!("[[{key}]], when"), what };
     let table = when.as_table().ok_or_else(|| wrong("write it as a table, { hours = \"2h\" }".to_owned()))?;
     let mut all = true;
     for (name, value) in table {
         let chosen = choices.get(name).ok_or_else(|| no_option(rule, key, name, choices))?;
-        let text = written(value).ok_or_else(|| wrong(format!("{value} is no value of an option")))?;
+        let text = written(value).ok_or_else(|| wrong(format!("{value} cannot be the value of an option")))?;
         let (text, negated) = text.strip_prefix('!').map_or((text.as_str(), false), |text| (text, true));
         all &= (chosen.text() == text) != negated;
     }
@@ -353,13 +353,13 @@ fn holds(rule: &str, key: &str, when: &Value, choices: &Choices) -> Result<bool,
 fn no_option(rule: &str, key: &str, name: &str, choices: &Choices) -> RuleError {
     let nearest = crate::choice::nearest(name, choices.keys().map(String::as_str));
     let what = match nearest {
-        Some(nearest) => format!("`${name}` is no option of this rule; the nearest is `${nearest}`"),
-        None => format!("`${name}` is no option of this rule, which has none"),
+        Some(nearest) => format!("`${name}` is not an option of this rule; the nearest is `${nearest}`"),
+        None => format!("`${name}` is not an option of this rule, which has none"),
     };
     RuleError::Value { rule: rule.to_owned(), at: key.to_owned(), what }
 }
 
-/// The options that a table speaks of.
+/// Collects the options that a table uses.
 pub(super) fn used(value: &Value, found: &mut BTreeSet<String>) {
     match value {
         Value::String(text) => {

@@ -1,4 +1,5 @@
-//! Reads the tables of a rule. A key that the table never has is an error at once, and one that nobody asked for at the end.
+//! Reads the tables of a rule. A key that the table never has is an error at once; a key that the other keys make
+//! useless is an error at the end.
 
 use super::error::RuleError;
 use crate::choice::{find, nearest};
@@ -7,7 +8,7 @@ use std::cell::RefCell;
 use std::str::FromStr;
 use toml::{Table, Value};
 
-/// One table of a rule.
+/// A reader of one table of a rule.
 pub(super) struct TableReader<'a> {
     rule: &'a str,
     at: String,
@@ -35,18 +36,16 @@ impl<'a> TableReader<'a> {
         Ok(TableReader { rule, at, table, asked: RefCell::default() })
     }
 
-    /// The value of a key, of whatever type.
     pub(super) fn value(&self, key: &'static str) -> Option<&'a Value> {
         self.asked.borrow_mut().push(key);
         self.table.get(key)
     }
 
-    /// Whether the key is written.
     pub(super) fn has(&self, key: &'static str) -> bool {
         self.value(key).is_some()
     }
 
-    /// What is wrong at a key.
+    /// An error at a key of this table.
     pub(super) fn wrong(&self, key: &str, what: impl Into<String>) -> RuleError {
         let parts = [self.at.as_str(), key];
         let at = parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(", ");
@@ -67,11 +66,11 @@ impl<'a> TableReader<'a> {
         self.read(key, "text in quotes", Value::as_str)
     }
 
-    /// A text that must be there, and say something.
+    /// A text that must not be missing or empty.
     pub(super) fn must_text(&self, key: &'static str) -> Result<&'a str, RuleError> {
         match self.text(key)? {
             Some(text) if !text.trim().is_empty() => Ok(text),
-            _ => Err(self.wrong(key, "it must be written")),
+            _ => Err(self.wrong(key, "it is required")),
         }
     }
 
@@ -84,7 +83,7 @@ impl<'a> TableReader<'a> {
         Ok(self.read(key, "true or false", Value::as_bool)?.unwrap_or(false))
     }
 
-    /// A number between two others.
+    /// A number within bounds.
     pub(super) fn number(&self, key: &'static str, least: f64, most: f64) -> Result<Option<f64>, RuleError> {
         let Some(number) = self.read(key, "a number", number_of)? else { return Ok(None) };
         if (least..=most).contains(&number) {
@@ -93,18 +92,18 @@ impl<'a> TableReader<'a> {
         Err(self.wrong(key, format!("{number} is not between {least} and {most}")))
     }
 
-    /// A whole number of at least one.
+    /// A whole number of at least 1.
     pub(super) fn count(&self, key: &'static str) -> Result<Option<usize>, RuleError> {
         let whole = |value: &Value| usize::try_from(value.as_integer()?).ok().filter(|count| *count > 0);
-        self.read(key, "a whole number from 1 on", whole)
+        self.read(key, "a whole number of at least 1", whole)
     }
 
-    /// A duration or a sum of durations, in seconds: `2h+30min`.
+    /// A duration, or a sum of durations such as `2h+30min`, in seconds.
     pub(super) fn secs(&self, key: &'static str) -> Result<Option<i64>, RuleError> {
         self.read(key, "a duration, \"2h\", \"1h30\" or \"2h+30min\"", |value| secs_of(value.as_str()?))
     }
 
-    /// One of some words.
+    /// One of the words of a type.
     pub(super) fn word<T: FromStr>(&self, key: &'static str) -> Result<Option<T>, RuleError>
     where
         T::Err: std::fmt::Display,
@@ -113,7 +112,7 @@ impl<'a> TableReader<'a> {
         word.parse().map(Some).map_err(|error: T::Err| self.wrong(key, error.to_string()))
     }
 
-    /// One of some words that are no type of their own.
+    /// One of the words of a list.
     pub(super) fn one_of<T: Copy>(
         &self,
         key: &'static str,
@@ -129,7 +128,7 @@ impl<'a> TableReader<'a> {
         table.map(|table| TableReader::new(self.rule, format!("[{key}]"), table, keys)).transpose()
     }
 
-    /// Several tables of one name.
+    /// The tables of a list.
     pub(super) fn tables(&self, key: &'static str, keys: &[&str]) -> Result<Vec<TableReader<'a>>, RuleError> {
         let list = |value: &'a Value| value.as_array()?.iter().map(Value::as_table).collect::<Option<Vec<_>>>();
         let tables = self.read(key, &format!("tables, each headed [[{key}]]"), list)?.unwrap_or_default();
@@ -137,21 +136,21 @@ impl<'a> TableReader<'a> {
         tables.into_iter().enumerate().map(reader).collect()
     }
 
-    /// Refuses a key that nobody asked for, as it does not go with the others.
+    /// Refuses keys that nothing has read, as they contradict the others.
     pub(super) fn finish(self) -> Result<(), RuleError> {
         let asked = self.asked.borrow();
         let Some(key) = self.table.keys().find(|key| !asked.contains(&key.as_str())) else { return Ok(()) };
-        Err(self.wrong(key, "it does not go with the other keys here; leave it out"))
+        Err(self.wrong(key, "it has no effect with the other keys here; leave it out"))
     }
 }
 
-/// A finite number, with a point or without.
+/// A finite number, integer or not.
 pub(super) fn number_of(value: &Value) -> Option<f64> {
     let number = value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64));
     number.filter(|number| number.is_finite())
 }
 
-/// The seconds of a duration, or of durations that are added.
+/// A duration, or a sum of durations, in seconds.
 pub(super) fn secs_of(text: &str) -> Option<i64> {
     text.split('+').map(|part| parse_duration_secs(part).ok().map(i64::from)).sum()
 }

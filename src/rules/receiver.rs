@@ -1,10 +1,10 @@
-//! What a rule judges.
+//! The receivers of rules: areas, façades, windows, and planes around a plot.
 
 use super::error::RuleError;
 use super::reader::TableReader;
 use crate::choice::words;
 
-/// Which kind of thing.
+/// A rule's word for a kind of receiver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum ReceiverWord {
     Area,
@@ -20,7 +20,7 @@ const RECEIVER_WORDS: &[(&str, ReceiverWord)] = &[
     ("lines", ReceiverWord::Lines),
 ];
 
-/// Where of a window is judged.
+/// The point of a window that is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WindowPoint {
     /// The middle of its width, in the inner plane of the wall.
@@ -31,7 +31,7 @@ pub enum WindowPoint {
     SillInside,
     /// The middle of the sill, in the wall's outer plane.
     SillMiddle,
-    /// Both ends of the sill, in the wall's outer plane: lit where both are.
+    /// Both ends of the sill, in the wall's outer plane: the window is lit when both are.
     SillEnds,
 }
 
@@ -43,12 +43,12 @@ words!(WindowPoint, [
     "sill-ends" => WindowPoint::SillEnds,
 ]);
 
-/// Windows whose spells are one list: lit where any of them is.
+/// Windows that are judged together: lit when any of them is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Grouping {
-    /// Those of a room.
+    /// The windows of a room.
     Room,
-    /// Those of one use in a dwelling.
+    /// The windows of one use in a dwelling.
     Dwelling,
 }
 
@@ -57,7 +57,7 @@ words!(Grouping, [
     "dwelling" => Grouping::Dwelling,
 ]);
 
-/// What a height is counted from.
+/// The level from which a height is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HeightOver {
     /// The ground below.
@@ -74,12 +74,12 @@ words!(HeightOver, [
     "floor" => HeightOver::Floor,
 ]);
 
-/// How a line at a distance goes round a corner.
+/// How a line at a constant distance from a border turns a corner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CornerRule {
-    /// At the same distance from the corner.
+    /// In an arc around the corner.
     Round,
-    /// Straight on to where the lines meet.
+    /// Straight on, to where the two lines meet.
     Mitred,
 }
 
@@ -88,7 +88,7 @@ words!(CornerRule, [
     "mitred" => CornerRule::Mitred,
 ]);
 
-/// Whose law moves a plot's border outward where a road or water adjoins.
+/// Which law moves the border of a plot outwards along roads and water.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DeemedBoundary {
     /// Japan's Enforcement Order of the Building Standards Act, art. 135-12 para. 3.
@@ -97,55 +97,55 @@ pub enum DeemedBoundary {
 
 words!(DeemedBoundary, ["jp" => DeemedBoundary::Japan]);
 
-/// A strip along a plot's border.
+/// A strip along the border of a plot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Band {
-    /// From so far outside of the border, metres.
+    /// The distance from the border at which the strip begins, metres.
     pub from_m: f64,
-    /// To so far, which may be infinity.
+    /// The distance at which it ends, metres; infinite for an open strip.
     pub to_m: f64,
 }
 
-/// What is judged.
+/// What a rule judges.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RuleReceiver {
     /// Areas, each by the part of it that gets enough.
     Area {
-        /// Narrower parts do not count, metres.
+        /// The least width: narrower parts do not count, metres.
         least_width_m: f64,
     },
-    /// Façades, windows or not.
+    /// Façades, with or without windows.
     Facade,
     /// Windows.
     Window {
-        /// Where of a window.
+        /// The point that is judged.
         at: WindowPoint,
-        /// At least so far above the floor, metres.
+        /// The least height of that point above the floor, metres.
         floor_m: f64,
-        /// At least so far above the sill, metres.
+        /// The least height of that point above the sill, metres.
         sill_m: f64,
-        /// Which windows are judged together.
+        /// Which windows are judged together; `None` if each is judged alone.
         group: Option<Grouping>,
-        /// The uses that a dwelling must have lit, all of them; empty where the rule knows no uses.
+        /// The uses of a dwelling that must all be lit; empty if the rule knows no uses.
         all_of: Vec<String>,
     },
     /// A level plane around a plot.
     Lines {
         /// Its height, metres.
         height_m: f64,
-        /// From what.
+        /// The level from which that is measured.
         over: HeightOver,
-        /// Whose law says where the border is.
+        /// Which law moves the border outwards.
         deemed: Option<DeemedBoundary>,
-        /// The strips, by which criteria are bound.
+        /// The strips to which criteria apply.
         bands: Vec<Band>,
-        /// How they go round corners.
+        /// How the strips turn corners.
         corners: CornerRule,
     },
 }
 
 impl RuleReceiver {
-    /// What [receiver] may say.
+    /// The keys that `[receiver]` may have.
     pub(super) const KEYS: &[&str] = &[
         "kind",
         "least_width",
@@ -163,7 +163,7 @@ impl RuleReceiver {
 
     pub(super) fn read(table: TableReader) -> Result<RuleReceiver, RuleError> {
         const MOST_M: f64 = 1000.0;
-        let must = |key: &'static str| table.wrong(key, "it must be written");
+        let must = |key: &'static str| table.wrong(key, "it is required");
         let metres = |key: &'static str| table.number(key, 0.0, MOST_M);
         let receiver = match table.one_of("kind", RECEIVER_WORDS)?.ok_or_else(|| must("kind"))? {
             ReceiverWord::Area => RuleReceiver::Area { least_width_m: metres("least_width")?.unwrap_or(0.0) },
@@ -188,7 +188,7 @@ impl RuleReceiver {
     }
 }
 
-/// Pairs of distances from the border, each strip beginning where the one before ends or further out.
+/// Reads pairs of distances from the border. Each strip begins where the one before ends, or further out.
 fn bands(table: &TableReader) -> Result<Vec<Band>, RuleError> {
     let what = "write the strips as pairs of metres, the nearest first: [[5, 10], [10, inf]]";
     let pair = |value: &toml::Value| {
@@ -204,16 +204,16 @@ fn bands(table: &TableReader) -> Result<Vec<Band>, RuleError> {
 }
 
 impl DeemedBoundary {
-    /// How far outside of the border it is deemed to lie where a road or water of a width adjoins, metres.
+    /// Returns how far outwards the border moves, in metres, along a road or water of a width.
     pub fn outward_m(self, road_width_m: f64) -> f64 {
         match self {
-            // up to 10 m wide its middle; beyond that 5 m before its far side
+            // to the middle if that is at most 10 m wide; otherwise to 5 m from its far side
             DeemedBoundary::Japan if road_width_m <= 10.0 => road_width_m / 2.0,
             DeemedBoundary::Japan => road_width_m - 5.0,
         }
     }
 
-    /// How much the plane is raised where the neighbour's ground lies higher by so much, metres.
+    /// Returns how far the plane is raised, in metres, where the neighbour's ground lies this much higher.
     pub fn raised_m(self, neighbour_higher_m: f64) -> f64 {
         match self {
             DeemedBoundary::Japan if neighbour_higher_m >= 1.0 => (neighbour_higher_m - 1.0) / 2.0,

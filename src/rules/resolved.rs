@@ -1,4 +1,4 @@
-//! A rule in which everything is chosen: plain values, and its days in a year at a place.
+//! A rule whose options are all set, and its days in a year at a place.
 
 use super::clock::ClockRule;
 use super::counting::{CountHow, Counted, Counting};
@@ -15,12 +15,12 @@ use crate::sun::{Place, SunError};
 use chrono::NaiveDate;
 use toml::Table;
 
-/// With what the answer is compared.
+/// What the site is compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CompareWith {
-    /// The state before.
+    /// The state before the change.
     Before,
-    /// A body that the law allows: what it does is allowed, too.
+    /// A body that the law allows: shadow that it would also cast is excused.
     Reference,
 }
 
@@ -29,30 +29,30 @@ words!(CompareWith, [
     "reference" => CompareWith::Reference,
 ]);
 
-/// A rule with everything chosen.
+/// A rule whose options are all set.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ResolvedRule {
-    /// Which rule.
+    /// The rule's id.
     pub id: String,
-    /// What is chosen, each option by its name.
+    /// The options' values, by name.
     pub chosen: Vec<(String, OptionValue)>,
-    /// In which its windows are told.
+    /// The clock that its windows are written in.
     pub clock: ClockRule,
-    /// On which days it counts.
+    /// The days on which it counts.
     pub days: Vec<DaySet>,
     /// Which sun counts.
     pub cuts: SunCuts,
     /// What is judged.
     pub receiver: RuleReceiver,
-    /// How is counted.
+    /// How spells are counted.
     pub counting: Counting,
-    /// With what it is compared.
+    /// What the site is compared with.
     pub compare: Option<CompareWith>,
-    /// What must hold.
+    /// The criteria.
     pub criteria: Vec<Criterion>,
-    /// Whether one of the criteria is enough.
+    /// Whether one of the criteria is enough; otherwise, all must hold.
     pub any: bool,
-    /// What of a dwelling must keep the criteria, where the rule speaks of dwellings.
+    /// The part of a dwelling that must keep the criteria, if the rule is about dwellings.
     pub dwelling: Option<DwellingShare>,
 }
 
@@ -61,23 +61,22 @@ pub struct ResolvedRule {
 pub struct RuleDay {
     /// The local date.
     pub date: NaiveDate,
-    /// To which of the rule's sets of days it belongs.
+    /// The index of the set of days that it belongs to.
     pub set: usize,
-    /// When is counted.
+    /// The windows in which the sun counts.
     pub windows: Vec<Spell>,
-    /// For each criterion when is counted for it; nothing for those that are bound to other days.
+    /// The windows of each criterion; `None` for those that do not apply on this day.
     pub criteria: Vec<Option<Vec<Spell>>>,
 }
 
 impl ResolvedRule {
-    /// The tables beside [rule] and [options].
+    /// The tables of a rule besides `[rule]` and `[options]`.
     const KEYS: &[&str] = &["clock", "day", "sun", "receiver", "count", "compare", "pass", "any", "dwelling"];
 
     pub(super) fn read(id: &str, table: &Table, chosen: Vec<(String, OptionValue)>) -> Result<ResolvedRule, RuleError> {
         let root = TableReader::new(id, "", table, Self::KEYS)?;
-        let must = |key: &'static str, keys| {
-            root.table(key, keys)?.ok_or_else(|| root.wrong(key, "the table must be written"))
-        };
+        let must =
+            |key: &'static str, keys| root.table(key, keys)?.ok_or_else(|| root.wrong(key, "the table is required"));
         let clock = ClockRule::read(must("clock", ClockRule::KEYS)?)?;
         let days = root.tables("day", DaySet::KEYS)?.into_iter().map(DaySet::read).collect::<Result<Vec<_>, _>>()?;
         let cuts = root.table("sun", SunCuts::KEYS)?.map_or_else(|| Ok(SunCuts::default()), SunCuts::read)?;
@@ -90,11 +89,11 @@ impl ResolvedRule {
         let dwelling = root.table("dwelling", DwellingShare::KEYS)?.map(DwellingShare::read).transpose()?;
         let is_any = !any.is_empty();
         if is_any != all.is_empty() {
-            let what = "write criteria that must all hold as [[pass]], or those of which one is enough as [[any]]";
+            let what = "write [[pass]] for criteria that must all hold, or [[any]] if one of them is enough";
             return Err(root.wrong("pass", what));
         }
         if days.is_empty() {
-            return Err(root.wrong("day", "there must be days, each set of them headed [[day]]"));
+            return Err(root.wrong("day", "at least one [[day]] is required"));
         }
         let criteria = if is_any { any } else { all };
         let rule = ResolvedRule {
@@ -115,24 +114,25 @@ impl ResolvedRule {
         Ok(rule)
     }
 
-    /// What does not go together.
+    /// Refuses tables that contradict each other.
     fn check(&self, root: &TableReader) -> Result<(), RuleError> {
         let has_before = self.compare == Some(CompareWith::Before);
         let needs_before =
             self.counting.what == Counted::NewShadow || self.criteria.iter().any(Criterion::needs_before);
         if needs_before && !has_before {
-            return Err(root.wrong("compare", "new shadow and ratios need [compare] with = \"before\""));
+            return Err(root.wrong("compare", "comparing with the state before needs [compare] with = \"before\""));
         }
         let bands = if let RuleReceiver::Lines { bands, .. } = &self.receiver { bands.len() } else { 0 };
         for criterion in &self.criteria {
             let is_day = criterion.on.is_empty() || self.days.iter().any(|set| set.name == criterion.on);
             if !is_day {
-                return Err(root.wrong("pass", format!("on = {:?} is the name of no [[day]]", criterion.on)));
+                return Err(root.wrong("pass", format!("on = {:?} is not the name of a [[day]]", criterion.on)));
             }
             if criterion.band.map_or(bands > 0, |band| band >= bands) {
-                return Err(
-                    root.wrong("pass", format!("there are {bands} bands, and each criterion names one of them"))
-                );
+                return Err(root.wrong(
+                    "pass",
+                    format!("there are {bands} bands, and each criterion needs `band`, the number of one"),
+                ));
             }
             let is_of_area = matches!(criterion.extent, Extent::Part { .. } | Extent::OfBefore(_));
             if is_of_area && !matches!(self.receiver, RuleReceiver::Area { .. }) {
@@ -148,21 +148,24 @@ impl ResolvedRule {
         self.check_grades(root)
     }
 
-    /// Time is added up over days, and areas are not: of which day would they be?
+    /// Refuses to add up areas over days: a share of an area belongs to one day.
     fn check_sum(&self, root: &TableReader) -> Result<(), RuleError> {
         let is_sum = self.days.iter().any(|set| set.judge == DayJudge::Sum);
         let is_area_time = self.criteria.iter().any(|criterion| criterion.how == CountHow::AreaTime);
         let has_share = self.criteria.iter().any(|criterion| criterion.extent != Extent::Whole);
         if is_sum && has_share {
-            return Err(root.wrong("day", "judge = \"sum\" adds time up, and a share is of one day"));
+            return Err(root.wrong(
+                "day",
+                "judge = \"sum\" adds up time; a share of an area belongs to one day, and cannot be added up",
+            ));
         }
         if is_area_time && !(is_sum && self.counting.what == Counted::NewShadow) {
-            return Err(root.wrong("count", "area-time counts new shadow, added up with judge = \"sum\""));
+            return Err(root.wrong("count", "area-time needs what = \"new-shadow\" and judge = \"sum\""));
         }
         Ok(())
     }
 
-    /// Grades are a ladder.
+    /// Refuses grades that are not a complete ladder.
     fn check_grades(&self, root: &TableReader) -> Result<(), RuleError> {
         let graded = self.criteria.iter().filter(|criterion| criterion.grade.is_some()).count();
         let secs = |criterion: &Criterion| match criterion.demand {
@@ -171,15 +174,16 @@ impl ResolvedRule {
         };
         let rises = self.criteria.windows(2).all(|two| secs(&two[0]) < secs(&two[1]));
         if graded > 0 && (graded < self.criteria.len() || !rises || self.any) {
-            return Err(root.wrong("pass", "either each [[pass]] has a grade, the lowest first, or none has one"));
+            return Err(root.wrong("pass", "give each [[pass]] a grade, the lowest first, or none"));
         }
         Ok(())
     }
 
-    /// Its days of a year at a place, set after set. Days of a range over New Year reach into the next year.
+    /// Returns its days in a year at a place, set by set. A range over New Year reaches into the next year.
     ///
     /// # Errors
-    /// A year outside 1600 to 2999, a time that clocks skip or repeat, a sunrise that does not happen though the sun is up.
+    /// A year outside 1600 to 2999, a time that the clock skips or repeats, or a window bound to a sunrise on a day on
+    /// which the sun is up throughout.
     pub fn calendar(&self, place: &Place, year: i32) -> Result<Vec<RuleDay>, SunError> {
         let mut days = Vec::new();
         for (set, of) in self.days.iter().enumerate() {
@@ -204,17 +208,17 @@ impl ResolvedRule {
         Ok(RuleDay { date, set, windows, criteria })
     }
 
-    /// Whether all its criteria report and none can fail.
+    /// Whether it has no limits: all criteria report, and none can fail.
     pub fn is_report(&self) -> bool {
         self.criteria.iter().all(|criterion| matches!(criterion.demand, Demand::Report { .. }))
     }
 }
 
-/// What [compare] may say.
+/// The keys that `[compare]` may have.
 pub(super) const COMPARE_KEYS: &[&str] = &["with"];
 
 fn comparison(table: TableReader) -> Result<CompareWith, RuleError> {
-    let with = table.word("with")?.ok_or_else(|| table.wrong("with", "it must be written"))?;
+    let with = table.word("with")?.ok_or_else(|| table.wrong("with", "it is required"))?;
     table.finish()?;
     Ok(with)
 }

@@ -1,4 +1,4 @@
-//! A rule as it is written: where it is from, what it leaves to an authority, and the rest of its text.
+//! A rule as it is written: its source, its options, and its text.
 
 use super::error::RuleError;
 use super::options::{Choices, OptionValue, RuleOption, chosen_in, used};
@@ -8,18 +8,18 @@ use crate::choice::{nearest, words};
 use std::collections::BTreeSet;
 use toml::{Table, Value};
 
-/// What a rule is to those who build.
+/// How far a rule binds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RuleKind {
-    /// It binds.
+    /// It is law.
     Law,
-    /// It binds where a law or a contract names it.
+    /// It binds if a law or a contract refers to it.
     Standard,
-    /// It advises.
+    /// It is advice.
     Guidance,
-    /// Courts go by it.
+    /// Courts follow it.
     CaseLaw,
-    /// It does not hold any more.
+    /// It is no longer in force.
     Lapsed,
 }
 
@@ -31,7 +31,7 @@ words!(RuleKind, [
     "lapsed" => RuleKind::Lapsed,
 ]);
 
-/// How its numbers are known.
+/// How well its numbers are known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Confidence {
     /// Read in the rule-maker's own text.
@@ -40,9 +40,9 @@ pub enum Confidence {
     Vt,
     /// A third party's summary.
     S,
-    /// Somebody's program alone.
+    /// Known only from another program.
     C,
-    /// Memory.
+    /// From memory.
     M,
 }
 
@@ -55,7 +55,7 @@ words!(Confidence, [
 ]);
 
 impl Confidence {
-    /// What the mark means.
+    /// The meaning of the mark, in words.
     pub fn meaning(self) -> &'static str {
         match self {
             Confidence::V => "read in the rule-maker's own text",
@@ -67,42 +67,42 @@ impl Confidence {
     }
 }
 
-/// Where a rule is from.
+/// Where a rule comes from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RuleSource {
-    /// By what it is asked for.
+    /// The id that asks for it.
     pub id: String,
-    /// What people call it.
+    /// Its usual name.
     pub name: String,
-    /// Where it is in force.
+    /// Where it applies.
     pub region: String,
-    /// What it is.
+    /// How far it binds.
     pub kind: RuleKind,
-    /// Which text of it.
+    /// The edition that was read.
     pub edition: String,
-    /// How its numbers are known.
+    /// How well its numbers are known.
     pub confidence: Confidence,
     /// Where they were read.
     pub sources: Vec<String>,
-    /// What is taken for granted, and what could not be read.
+    /// Assumptions, and what could not be read.
     pub assumes: Vec<String>,
 }
 
-/// A rule, its options not yet chosen.
+/// A rule whose options are not set yet.
 #[derive(Clone, Debug)]
 pub struct Rule {
-    /// Where it is from.
+    /// Where it comes from.
     pub source: RuleSource,
     /// What it leaves to an authority.
     pub options: Vec<RuleOption>,
-    /// As it is written.
+    /// Its TOML text.
     pub text: String,
     body: Table,
 }
 
 impl Rule {
-    /// Reads a rule, and tries it with all values of its options, so that no mistake waits for a choice. `name` is what
-    /// errors call it until its id is known.
+    /// Reads a rule and tries it with every value of each option, so that mistakes show at once. Errors call it `name`
+    /// until its id is known.
     ///
     /// # Errors
     /// [`RuleError`].
@@ -116,7 +116,7 @@ impl Rule {
         let head = head.as_ref().and_then(Value::as_table).ok_or_else(|| RuleError::Value {
             rule: name.to_owned(),
             at: "[rule]".to_owned(),
-            what: "it must be written, with id, name, region, kind, edition and confidence".to_owned(),
+            what: "it is required, with id, name, region, kind, edition and confidence".to_owned(),
         })?;
         let source = source(TableReader::new(name, "[rule]", head, SOURCE_KEYS)?)?;
         let written = body.remove("options").unwrap_or_else(|| Value::Table(Table::new()));
@@ -127,7 +127,7 @@ impl Rule {
         Ok(rule)
     }
 
-    /// Refuses options that nothing depends on.
+    /// Refuses options that have no effect.
     fn check_options(&self) -> Result<(), RuleError> {
         let mut found = BTreeSet::new();
         self.body.values().for_each(|value| used(value, &mut found));
@@ -141,7 +141,7 @@ impl Rule {
         }
     }
 
-    /// Resolves it with each value of each option, the others as they are first.
+    /// Resolves the rule with every value of each option in turn, the other options at their first value.
     fn try_all(&self) -> Result<(), RuleError> {
         let samples: Vec<Vec<OptionValue>> = self.options.iter().map(RuleOption::samples).collect();
         let first: Choices =
@@ -157,10 +157,11 @@ impl Rule {
         Ok(())
     }
 
-    /// The rule with its options chosen, each as it is written: `("hours", "2h")`.
+    /// Sets the options, given as pairs of name and written value: `("hours", "2h")`. The others keep their defaults.
     ///
     /// # Errors
-    /// An option that it does not have, a value that the option cannot have, options that must be said and are not.
+    /// An option that the rule does not have, a value that it does not allow, or an option without a default and
+    /// without a value.
     pub fn resolve(&self, given: &[(&str, &str)]) -> Result<ResolvedRule, RuleError> {
         let mut choices = Choices::new();
         for (name, text) in given {
@@ -194,7 +195,7 @@ impl Rule {
 
     fn with(&self, choices: &Choices) -> Result<ResolvedRule, RuleError> {
         let table = chosen_in(&self.source.id, &self.body, choices)?;
-        // in the order in which the rule explains them
+        // in the order in which the rule lists them
         let chosen = self
             .options
             .iter()
@@ -203,10 +204,10 @@ impl Rule {
     }
 }
 
-/// More options than this nobody chooses, and a rule is tried with the values of each.
+/// The most options of a rule. It is tried with the values of each.
 const MOST_OPTIONS: usize = 30;
 
-/// What [rule] may say.
+/// The keys that `[rule]` may have.
 pub(super) const SOURCE_KEYS: &[&str] =
     &["id", "name", "region", "kind", "edition", "confidence", "sources", "assumes"];
 
@@ -216,15 +217,15 @@ fn source(table: TableReader) -> Result<RuleSource, RuleError> {
         id: table.must_text("id")?.to_owned(),
         name: table.must_text("name")?.to_owned(),
         region: table.must_text("region")?.to_owned(),
-        kind: table.word("kind")?.ok_or_else(|| table.wrong("kind", "it must be written"))?,
+        kind: table.word("kind")?.ok_or_else(|| table.wrong("kind", "it is required"))?,
         edition: table.must_text("edition")?.to_owned(),
-        confidence: table.word("confidence")?.ok_or_else(|| table.wrong("confidence", "it must be written"))?,
+        confidence: table.word("confidence")?.ok_or_else(|| table.wrong("confidence", "it is required"))?,
         sources: owned(table.texts("sources")?),
         assumes: owned(table.texts("assumes")?),
     };
     let is_id = source.id.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-');
     if !is_id {
-        return Err(table.wrong("id", "it is of small letters, digits and hyphens"));
+        return Err(table.wrong("id", "use lower-case letters, digits and hyphens only"));
     }
     table.finish()?;
     Ok(source)
@@ -233,7 +234,7 @@ fn source(table: TableReader) -> Result<RuleSource, RuleError> {
 fn options(rule: &str, written: &Value) -> Result<Vec<RuleOption>, RuleError> {
     let wrong =
         |what: &str| RuleError::Value { rule: rule.to_owned(), at: "[options]".to_owned(), what: what.to_owned() };
-    let each = "each option is a table of its own, as [options.hours]";
+    let each = "write each option as a table of its own, such as [options.hours]";
     let table = written.as_table().ok_or_else(|| wrong(each))?;
     if table.len() > MOST_OPTIONS {
         return Err(wrong(&format!("a rule has at most {MOST_OPTIONS} options")));
@@ -241,7 +242,7 @@ fn options(rule: &str, written: &Value) -> Result<Vec<RuleOption>, RuleError> {
     let mut options = Vec::new();
     for (name, value) in table {
         if !name.chars().all(|c| c.is_ascii_lowercase() || c == '_') {
-            return Err(wrong(&format!("{name:?} is no name of an option; take small letters and _")));
+            return Err(wrong(&format!("{name:?} cannot be the name of an option; use lower-case letters and _ only")));
         }
         let table = value.as_table().ok_or_else(|| wrong(each))?;
         let table = TableReader::new(rule, format!("[options.{name}]"), table, RuleOption::KEYS)?;

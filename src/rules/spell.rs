@@ -1,32 +1,32 @@
-//! Spells: stretches of time, to the second, and what two lists of them have in common.
+//! Spells, which are stretches of time to the second, and operations on lists of them.
 
-/// A stretch of time.
+/// A half-open stretch of time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Spell {
-    /// Its first second, since 1970.
+    /// Its first second, in seconds since 1970 (UTC).
     pub start: i64,
     /// The first second after it.
     pub end: i64,
 }
 
 impl Spell {
-    /// From a second to another.
+    /// A spell from its first second to the first one after it.
     pub fn new(start: i64, end: i64) -> Spell {
         Spell { start, end }
     }
 
-    /// How long it is, seconds.
+    /// Its length, seconds.
     pub fn secs(self) -> i64 {
         self.end.saturating_sub(self.start)
     }
 }
 
-/// How long spells are together, seconds.
+/// Returns the total length of spells, seconds.
 pub fn total_secs(spells: &[Spell]) -> i64 {
     spells.iter().map(|spell| spell.secs()).sum()
 }
 
-/// The spells in time's order, those that touch as one, without empty ones.
+/// Returns the spells in order of time, joined where they touch or overlap, without empty ones.
 pub fn merged(spells: impl IntoIterator<Item = Spell>) -> Vec<Spell> {
     let mut spells: Vec<Spell> = spells.into_iter().filter(|spell| spell.start < spell.end).collect();
     spells.sort_unstable();
@@ -40,7 +40,7 @@ pub fn merged(spells: impl IntoIterator<Item = Spell>) -> Vec<Spell> {
     merged
 }
 
-/// When both are.
+/// Returns the intersection of two lists.
 pub fn common(one: &[Spell], other: &[Spell]) -> Vec<Spell> {
     let (one, other) = (merged(one.iter().copied()), merged(other.iter().copied()));
     let (mut at, mut with) = (0, 0);
@@ -55,7 +55,7 @@ pub fn common(one: &[Spell], other: &[Spell]) -> Vec<Spell> {
     found
 }
 
-/// When the first are and the second are not.
+/// Returns `one` minus `other`.
 pub fn without(one: &[Spell], other: &[Spell]) -> Vec<Spell> {
     let other = merged(other.iter().copied());
     let mut left = Vec::new();

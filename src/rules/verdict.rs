@@ -1,4 +1,4 @@
-//! Verdicts, and what they rest on.
+//! Verdicts, and the findings they are based on.
 
 use super::days::DayJudge;
 use super::resolved::ResolvedRule;
@@ -6,14 +6,14 @@ use crate::choice::words;
 use chrono::NaiveDate;
 use std::cmp::Ordering;
 
-/// Whether a rule is kept.
+/// The result of comparing a number with a rule's limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// It is.
+    /// The rule is kept.
     Pass,
-    /// Nobody can say: the number is closer to its limit than it is known.
+    /// Undecided: the number is closer to its limit than it is known.
     Close,
-    /// It is not.
+    /// The rule is broken.
     Fail,
     /// The rule has no limit.
     Report,
@@ -27,13 +27,13 @@ words!(Verdict, [
 ]);
 
 impl Verdict {
-    /// Of several things that must all pass.
+    /// The verdict on several things that must all pass.
     pub fn all(verdicts: impl IntoIterator<Item = Verdict>) -> Verdict {
         let worst = [Verdict::Report, Verdict::Pass, Verdict::Close, Verdict::Fail];
         Verdict::furthest(&worst, verdicts)
     }
 
-    /// Of several things one of which must pass.
+    /// The verdict on several things if one that passes is enough.
     pub fn any(verdicts: impl IntoIterator<Item = Verdict>) -> Verdict {
         let best = [Verdict::Report, Verdict::Fail, Verdict::Close, Verdict::Pass];
         Verdict::furthest(&best, verdicts)
@@ -45,59 +45,59 @@ impl Verdict {
     }
 }
 
-/// A number that a rule compares.
+/// A number that a rule compares with a limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Quantity {
-    /// Seconds.
+    /// A time, seconds.
     Secs(i64),
-    /// A part of a whole, 0 to 1.
+    /// A share, 0 to 1.
     Share(f64),
-    /// Square metres.
+    /// An area, square metres.
     AreaM2(f64),
-    /// Square metres times seconds.
+    /// An area times a time, square metres times seconds.
     AreaTime(f64),
-    /// How many.
+    /// A number of things.
     Count(usize),
 }
 
-/// Why a number that misses its limit is taken all the same.
+/// Why a number that misses its limit is accepted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Excuse {
-    /// It is still the share of what was before that the rule asks.
+    /// It is still the share of the number before that the rule demands.
     Ratio,
-    /// The limit was not kept before either, and nothing has become less.
+    /// It missed the limit before, too, and has not become worse.
     NoWorse,
-    /// A body that the law allows does the same.
+    /// A body that the law allows would have the same effect.
     Reference,
 }
 
-/// What one criterion came to on one day, or on all days that are added up.
+/// The result of one criterion on one day, or on all days added up.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
-    /// Which criterion, from 0.
+    /// The index of the criterion, from 0.
     pub criterion: usize,
-    /// Which day; none where days are added up, or where it is of none.
+    /// The day; `None` if days are added up, or if the criterion is not about a day.
     pub date: Option<NaiveDate>,
-    /// Whether it is kept.
+    /// The verdict.
     pub verdict: Verdict,
-    /// The number.
+    /// The number that is compared.
     pub value: Quantity,
-    /// The longest spell, seconds, where time is counted.
+    /// The longest spell, seconds, if time is counted.
     pub longest_secs: Option<i64>,
-    /// The number before, or that of the body that the law allows.
+    /// The number before, or with the body that the law allows.
     pub before: Option<Quantity>,
-    /// Its limit; none where it is only told.
+    /// The limit; `None` if the number is only reported.
     pub limit: Option<Quantity>,
-    /// By how much it is kept; negative where it is missed.
+    /// The distance from the limit; negative if it is missed.
     pub margin: Option<f64>,
-    /// Why it is taken though it misses its limit.
+    /// Why the number is accepted though it misses the limit.
     pub excuse: Option<Excuse>,
-    /// How long all sun is gone that was there before, at a time, seconds; where the rule asks.
+    /// The longest time in which all sun is gone that was there before, seconds, if the rule asks for it.
     pub no_sun_left_secs: Option<i64>,
 }
 
 impl Finding {
-    /// The margin by the limit, for what is compared across criteria; an excused one is at its limit.
+    /// The margin as a share of the limit, to compare criteria with each other; 0 for an excused finding.
     pub(super) fn slack(&self) -> f64 {
         let limit = match self.limit {
             Some(Quantity::Secs(secs)) => secs as f64,
@@ -113,26 +113,26 @@ impl Finding {
 /// A verdict with its reasons.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ruling {
-    /// Of all days and criteria together.
+    /// The verdict on all days and criteria together.
     pub verdict: Verdict,
-    /// The highest grade that is reached, where the rule has grades.
+    /// The highest grade that is reached, if the rule has grades.
     pub grade: Option<String>,
-    /// Which finding decides, by its number; none where there is none.
+    /// The index of the finding that decides; `None` without findings.
     pub deciding: Option<usize>,
-    /// Each criterion on each day.
+    /// One finding for each criterion and day.
     pub findings: Vec<Finding>,
 }
 
-/// The findings of one day, or of all days that are added up.
+/// The findings of one day, or of all days added up.
 pub(super) struct DayCase {
-    /// Of which set of days.
+    /// The index of the set of days.
     pub(super) set: usize,
-    /// In the order of the criteria.
+    /// The findings in the order of the criteria.
     pub(super) findings: Vec<Finding>,
 }
 
-/// What a day or a set of days came to: the verdict, how many grades are reached, and the number of the finding that
-/// decides.
+/// The result of a day or of a set of days: the verdict, the number of grades that are reached, and the index of the
+/// finding that decides.
 #[derive(Clone, Copy)]
 struct Standing {
     verdict: Verdict,
@@ -142,7 +142,7 @@ struct Standing {
 }
 
 impl ResolvedRule {
-    /// One verdict of the findings of all days.
+    /// Combines the findings of all days.
     pub(super) fn ruling(&self, cases: Vec<DayCase>) -> Ruling {
         let mut findings: Vec<Finding> = Vec::new();
         let mut sets: Vec<Vec<Standing>> = vec![Vec::new(); self.days.len()];
@@ -171,7 +171,7 @@ impl ResolvedRule {
         }
     }
 
-    /// One day's criteria together; `offset` is the number of its first finding.
+    /// Combines the criteria of one day; `offset` is the index of its first finding.
     fn of_case(&self, findings: &[Finding], offset: usize) -> Standing {
         let one = |(at, finding): (usize, &Finding)| Standing {
             verdict: finding.verdict,
@@ -183,7 +183,7 @@ impl ResolvedRule {
         let each = findings.iter().enumerate().map(one);
         let none = Standing { verdict: Verdict::Report, grades: 0, deciding: None, slack: f64::INFINITY };
         if is_graded {
-            // the grades are a ladder, and its first step is what must be kept
+            // grades are a ladder, and the rule demands its first step
             let grades = findings.iter().take_while(|finding| finding.verdict == Verdict::Pass).count();
             let first = each.into_iter().next().unwrap_or(none);
             return Standing { grades, ..first };
@@ -193,7 +193,7 @@ impl ResolvedRule {
     }
 }
 
-/// The one of two that decides where both must be kept.
+/// Returns the one that decides if both must be kept.
 fn worse(a: Standing, b: Standing) -> Standing {
     let verdict = Verdict::all([a.verdict, b.verdict]);
     let grades = a.grades.min(b.grades);
@@ -206,7 +206,7 @@ fn worse(a: Standing, b: Standing) -> Standing {
     Standing { grades, ..kept }
 }
 
-/// The one of two that decides where one is enough.
+/// Returns the one that decides if one is enough.
 fn better(a: Standing, b: Standing) -> Standing {
     let verdict = Verdict::any([a.verdict, b.verdict]);
     match (a.verdict == verdict, b.verdict == verdict) {

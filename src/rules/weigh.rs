@@ -1,26 +1,25 @@
-//! Holds one number against one criterion.
+//! Compares a number with a criterion's limit.
 
 use super::criterion::Criterion;
 use super::verdict::{Excuse, Verdict};
 
-/// A number, with what it is held against.
+/// A number, and what it is compared with.
 pub(super) struct Weight {
-    /// The number.
     pub(super) value: f64,
-    /// It is known to so much, up and down.
+    /// The uncertainty of the number, ±.
     pub(super) error: f64,
-    /// What it must reach.
+    /// The limit.
     pub(super) least: f64,
     /// The number before.
     pub(super) before: Option<f64>,
 }
 
-/// Whether a number reaches another, which may be a product whose rounding is no reason to fail.
+/// Whether a number reaches a limit. Limits may be products, so a rounding error does not fail.
 pub(super) fn reaches(value: f64, least: f64) -> bool {
     value >= least - 1e-9 * least.abs()
 }
 
-/// Whether a number that is known to an error reaches another.
+/// The verdict on a number with an uncertainty.
 pub(super) fn verdict_of(value: f64, error: f64, least: f64) -> Verdict {
     match (reaches(value - error, least), reaches(value + error, least)) {
         (true, _) => Verdict::Pass,
@@ -30,7 +29,7 @@ pub(super) fn verdict_of(value: f64, error: f64, least: f64) -> Verdict {
 }
 
 impl Weight {
-    /// The verdict, with what the criterion takes in place of its limit.
+    /// The verdict, with what the criterion accepts instead of its limit.
     pub(super) fn verdict(&self, criterion: &Criterion) -> (Verdict, Option<Excuse>) {
         let Weight { value, error, least, before } = *self;
         let own = verdict_of(value, error, least);
@@ -43,7 +42,7 @@ impl Weight {
                 Verdict::Fail => Verdict::Pass,
                 other => other,
             };
-            // two numbers of one method that are equal have not changed
+            // equal numbers from one method mean that nothing has changed
             let held = if value == before { Verdict::Pass } else { verdict_of(value, 2.0 * error, before) };
             (Excuse::NoWorse, Verdict::all([failed, held]))
         });

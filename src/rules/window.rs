@@ -1,4 +1,4 @@
-//! The parts of a day in which a rule counts.
+//! The windows of a day in which the sun counts.
 
 use super::clock::ClockRule;
 use super::error::RuleError;
@@ -13,23 +13,23 @@ use toml::Value;
 pub enum WindowEdge {
     /// A time on the rule's clock.
     Clock(NaiveTime),
-    /// So many seconds after the sunrise.
+    /// Seconds after sunrise; negative before.
     Sunrise(i64),
-    /// So many seconds after the sunset.
+    /// Seconds after sunset; negative before.
     Sunset(i64),
 }
 
-/// The parts of a day.
+/// The windows of a day.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum WindowRule {
-    /// The local date from midnight to midnight, and so whenever the sun is up.
+    /// The whole local date, midnight to midnight: whenever the sun is up.
     WholeDay,
-    /// From one edge to another, perhaps several times.
+    /// Each from one edge to another.
     Parts(Vec<[WindowEdge; 2]>),
 }
 
 impl WindowRule {
-    /// Nothing where the table does not have it.
+    /// Reads the key `windows`; `None` if the table does not have it.
     pub(super) fn read(table: &TableReader) -> Result<Option<WindowRule>, RuleError> {
         let Some(value) = table.value("windows") else { return Ok(None) };
         let wrong = || {
@@ -46,17 +46,19 @@ impl WindowRule {
             if let [WindowEdge::Clock(from), WindowEdge::Clock(to)] = part
                 && from >= to
             {
-                return Err(table.wrong("windows", format!("a window from {from} to {to} is empty or runs backwards")));
+                return Err(table
+                    .wrong("windows", format!("the window from {from} to {to} is empty, or ends before it begins")));
             }
         }
         Ok(Some(WindowRule::Parts(parts)))
     }
 
-    /// When they are on a date, in time's order. A window that is bound to the sun and has no room between its edges is
-    /// left out, as are those of a date on which the sun stays down.
+    /// Returns the windows on a date, in order of time. A window bound to the sun is left out if its edges leave no
+    /// room between them, or if the sun stays down all day.
     ///
     /// # Errors
-    /// A legal time that does not exist or exists twice, a sunrise or sunset that does not happen though the sun is up.
+    /// A legal time that does not exist or exists twice, or a window bound to a sunrise or sunset on a day on which the
+    /// sun is up throughout.
     pub fn on(&self, place: &Place, date: NaiveDate, clock: ClockRule) -> Result<Vec<Spell>, SunError> {
         let WindowRule::Parts(parts) = self else { return whole_day(place, date) };
         let mut spells = Vec::new();
@@ -83,14 +85,14 @@ fn pair(value: &Value) -> Option<[WindowEdge; 2]> {
     Some([edge(from)?, edge(to)?])
 }
 
-/// From one midnight to the next, on the legal clock: a date is the calendar's, whichever clock a rule reads.
+/// From midnight to midnight on the legal clock: dates are those of the calendar, whichever clock a rule uses.
 fn whole_day(place: &Place, date: NaiveDate) -> Result<Vec<Spell>, SunError> {
     let day = DayWindow::on(place, date, None, None)?;
     Ok(merged([Spell::new(day.from.timestamp(), day.to.timestamp())]))
 }
 
 impl WindowEdge {
-    /// Nothing on a date on which the sun stays down.
+    /// `None` on a date on which the sun stays down.
     fn on(self, place: &Place, date: NaiveDate, clock: ClockRule) -> Result<Option<i64>, SunError> {
         let (event, shift) = match self {
             WindowEdge::Clock(time) => return Ok(Some(clock.clock.at(place, date, time)?.timestamp())),

@@ -1,20 +1,20 @@
-//! The point of the Earth at which a model's zero stands.
+//! The point of the Earth where a model's origin lies.
 
 use crate::crs::{Crs, GeodeticPoint};
 use glam::DVec3;
 
-/// Where a model's zero stands, and which way it is turned; what is not said is none.
+/// Where a model's origin lies and how the model is turned. What the anchors do not say is `None`.
 #[derive(Clone, Debug)]
 pub(super) struct AnchoredZero {
     pub(super) at: Option<GeodeticPoint>,
-    /// Whether the height of `at` is said.
+    /// Whether the height of `at` is given.
     pub(super) has_height: bool,
-    /// The point of a map that it is, where it is one.
+    /// The map and the coordinates in it, if the anchor uses a map.
     pub(super) on_map: Option<(Crs, DVec3)>,
     pub(super) north: Option<AnchoredNorth>,
 }
 
-/// Radians clockwise from the file's north.
+/// The angle to a north, in radians clockwise from the file's own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum AnchoredNorth {
     /// The north of the anchor's map.
@@ -23,7 +23,7 @@ pub(super) enum AnchoredNorth {
     True(f64),
 }
 
-/// Radians clockwise from the file's north to true north, where an anchor says it.
+/// Radians clockwise from the file's north to true north, if an anchor gives them.
 pub(super) fn true_north(zero: &AnchoredZero) -> Option<f64> {
     match (zero.north?, &zero.on_map) {
         (AnchoredNorth::True(north), _) => Some(north),

@@ -1,22 +1,22 @@
-//! A value of the study that is asked: set by a face, or a text of the site file.
+//! A value of the study that a face sets or the site file gives.
 
 use super::error::{FieldLocation, SiteError};
 use super::typed::TypedError;
 use super::written::WrittenSite;
 use crate::message::Field;
 
-/// A value of the study, and where it is asked. The file's text is read only when the value is needed, so that what
-/// nobody uses is no mistake.
+/// A value of the study, and where it was given. The site file's text is read only when the value is needed, so that a
+/// value that nothing uses cannot be an error.
 #[derive(Clone, Debug)]
 pub(super) enum AskedValue<'a, T> {
     /// Set by a face.
     Set(T, Field),
-    /// As the site file has it.
+    /// The site file's text.
     Text(&'a str, FieldLocation),
 }
 
 impl<'a, T: Clone> AskedValue<'a, T> {
-    /// What a face sets, or else what stands under the key in `[study]`.
+    /// The value that a face sets, otherwise the one under the key in `[study]`.
     pub(super) fn of(
         written: &WrittenSite,
         (field, set): (Field, Option<T>),
@@ -26,7 +26,7 @@ impl<'a, T: Clone> AskedValue<'a, T> {
         set.map(|value| AskedValue::Set(value, field)).or_else(in_file)
     }
 
-    /// Where it is asked.
+    /// Where the value was given.
     pub(super) fn at(&self) -> FieldLocation {
         match self {
             AskedValue::Set(_, field) => FieldLocation::Field(*field),
@@ -34,10 +34,10 @@ impl<'a, T: Clone> AskedValue<'a, T> {
         }
     }
 
-    /// The value.
+    /// Reads the value.
     ///
     /// # Errors
-    /// What the file's text says that is none.
+    /// A text that is not such a value.
     pub(super) fn read<E: Into<TypedError>>(&self, reader: impl Fn(&str) -> Result<T, E>) -> Result<T, SiteError> {
         match self {
             AskedValue::Set(value, _) => Ok(value.clone()),

@@ -1,5 +1,5 @@
-//! The camera of the request, or a good one: from the sunlit side, three-quarter, with models and shadows in view; or
-//! in front of a side, with the models in view.
+//! The camera of the request, or a default one: three-quarter, from the sunlit side, with models and shadows in view,
+//! or straight at a side with the models in view.
 
 use super::error::SiteError;
 use super::extent::Bounds;
@@ -16,14 +16,14 @@ const WIDTH: u32 = 1600;
 const HEIGHT: u32 = 1000;
 const WIDTH_BY_HEIGHT: f64 = WIDTH as f64 / HEIGHT as f64;
 const FOV_DEG: f64 = 40.0;
-/// How high the default eye stands above its target, seen from there, degrees.
+/// The default eye's altitude above the horizon as seen from the target, degrees.
 const ELEVATION_DEG: f64 = 32.0;
-/// How far the default eye stands aside of the sun, towards the east, degrees: so that walls differ in light.
+/// The angle in plan between the default eye and the sun, degrees, turned east so that walls differ in brightness.
 const ASIDE_DEG: f64 = 35.0;
-/// Of the picture, around what it has to hold.
+/// The factor by which the picture is larger than its contents.
 const MARGIN: f64 = 1.06;
 
-/// The side that is seen instead of the perspective, as asked or as written.
+/// The side that is shown instead of the perspective, as set by a face or in the site file.
 pub(super) fn side(written: &WrittenSite, asked: &Overrides) -> Result<Option<Side>, SiteError> {
     match (asked.side, &written.site.camera.side) {
         (None, Some(word)) => {
@@ -34,8 +34,8 @@ pub(super) fn side(written: &WrittenSite, asked: &Overrides) -> Result<Option<Si
     }
 }
 
-/// The camera, or the one that sees as much as a side is to show; `shadows` are the south-west and north-east corner of
-/// what should be in view on the ground.
+/// The camera; or, for a side, the one that sees the same extent. `shadows` are the south-west and north-east corners
+/// of what should be in view on the ground.
 pub(super) fn camera(
     written: &WrittenSite,
     side: Option<Side>,
@@ -65,7 +65,7 @@ pub(super) fn camera(
     };
 
     let [target, eye] = [vector("target", table.target)?, vector("eye", table.eye)?];
-    // Before a side that only an option asks for, what is written is the perspective's.
+    // If only an option asks for a side, the eye and the target in the file belong to the perspective.
     let [target, eye] = if side.is_none() || table.side.is_some() { [target, eye] } else { [None, None] };
     let latitude = written.site.place.as_ref().and_then(|place| place.latitude);
     let back = direction_to_eye(latitude, track);
@@ -75,7 +75,7 @@ pub(super) fn camera(
     });
     let eye = eye.unwrap_or_else(|| {
         let far = match side {
-            // From there the perspective sees as much at its target.
+            // from this eye the perspective sees the same extent at its target
             Some(side) => {
                 side.height_about(target, above(bounds, ground), WIDTH_BY_HEIGHT) / 2.0 / (fov_rad / 2.0).tan()
             }
@@ -84,15 +84,15 @@ pub(super) fn camera(
         target + back * far
     });
     let Some(forward) = (target - eye).try_normalize() else {
-        return Err(fault("eye", "it is the target itself".to_owned()));
+        return Err(fault("eye", "it is the same point as the target".to_owned()));
     };
     if forward.cross(up).length() < 1e-6 {
-        return Err(fault("up", "it is the direction of view, so nothing is upwards".to_owned()));
+        return Err(fault("up", "it is the direction of view, so no direction is up in the picture".to_owned()));
     }
     Ok(Camera { eye, target, up, fov_rad, width: WIDTH, height: HEIGHT })
 }
 
-/// The perspective where nothing is asked of it.
+/// The default perspective.
 pub(super) fn found(latitude: f64, bounds: Bounds, shadows: [DVec2; 2], ground: f64, track: &SunTrack) -> Camera {
     let (target, fov_rad) = (middle(bounds, shadows), FOV_DEG.to_radians());
     let back = direction_to_eye(Some(latitude), track);
@@ -100,7 +100,7 @@ pub(super) fn found(latitude: f64, bounds: Bounds, shadows: [DVec2; 2], ground: 
     Camera { eye, target, up: DVec3::Z, fov_rad, width: WIDTH, height: HEIGHT }
 }
 
-/// Between the models and the middle of the picture's ground, so that neither is at its edge.
+/// The middle between the models and the ground in view, so that neither is at the picture's edge.
 fn middle(bounds: Bounds, shadows: [DVec2; 2]) -> DVec3 {
     let (centre, middle) = (bounds.centre(), (shadows[0] + shadows[1]) / 2.0);
     ((centre.truncate() + middle) / 2.0).extend(centre.z)
@@ -110,7 +110,7 @@ fn middle(bounds: Bounds, shadows: [DVec2; 2]) -> DVec3 {
 fn direction_to_eye(latitude: Option<f64>, track: &SunTrack) -> DVec3 {
     let day = track.instants.iter().filter(|instant| !instant.night);
     let sun: DVec2 = day.map(|instant| instant.to_sun.truncate()).sum();
-    // Without a sun, or one from all sides, look from where it stands at noon.
+    // Without a sun, or with suns all around, look from where the sun is at noon.
     let southern = latitude.is_some_and(|latitude| latitude < 0.0);
     let noon_side = if southern { DVec2::Y } else { DVec2::NEG_Y };
     let sunlit = sun.try_normalize().unwrap_or(noon_side);
@@ -121,12 +121,12 @@ fn direction_to_eye(latitude: Option<f64>, track: &SunTrack) -> DVec3 {
     (aside * cos).extend(sin)
 }
 
-/// What of the models a side shows: from the ground upwards.
+/// The part of the models that a side shows: from the ground upwards.
 fn above(bounds: Bounds, ground: f64) -> (DVec3, DVec3) {
     (bounds.low.with_z(ground), bounds.high.with_z(bounds.high.z.max(ground)))
 }
 
-/// How far back the eye must stand to see all corners.
+/// How far back the eye must be to see all corners.
 fn distance(back: DVec3, target: DVec3, fov_rad: f64, bounds: Bounds, shadows: [DVec2; 2], ground: f64) -> f64 {
     let right = DVec3::Z.cross(back).normalize_or(DVec3::X);
     let up = back.cross(right);
@@ -144,6 +144,6 @@ fn distance(back: DVec3, target: DVec3, fov_rad: f64, bounds: Bounds, shadows: [
             let aside = (corner.dot(right).abs() / half_width).max(corner.dot(up).abs() / half_height);
             corner.dot(back) + aside * MARGIN
         })
-        // A model without size is still looked at from somewhere.
+        // a model of no size still needs a distance
         .fold(1.0, f64::max)
 }

@@ -1,4 +1,4 @@
-//! The words by which people choose a side, and a model's upward axis.
+//! The words for a side, and for a model's up axis.
 
 use crate::choice::words;
 use crate::formats::Up;

@@ -16,7 +16,7 @@ pub struct ModelContents {
     pub format: &'static str,
     /// The length of a unit in metres, if the file or its format says it.
     pub unit_m: Option<f64>,
-    /// Its upward axis.
+    /// Its up axis.
     pub up: Up,
     /// Whether the file or its format says so.
     pub up_is_said: bool,
@@ -34,11 +34,11 @@ pub struct ModelContents {
 pub struct NameGroup {
     /// The name, as `casts` takes it.
     pub name: String,
-    /// At least one.
+    /// The number of components that it selects, at least 1.
     pub components: usize,
 }
 
-/// What is kept of a model beside its parts.
+/// What is kept of a model besides its parts.
 #[derive(Clone, Debug)]
 pub(super) struct ReadContents {
     format: &'static str,
@@ -61,24 +61,24 @@ impl ReadContents {
         }
     }
 
-    /// Which of the components are sheets on the ground.
+    /// For each component, whether it is ground cover.
     pub(super) fn covers(&self, components: usize) -> impl Iterator<Item = bool> {
         (0..components).map(|part| self.kinds.get(part) == Some(&PartKind::GroundCover))
     }
 
-    /// Per component whether it casts: what lies on the ground does so only where it is named.
+    /// For each component, whether it casts. Ground cover casts only if it is named.
     pub(super) fn casts(&self, names: &Names, components: &[Component]) -> Vec<bool> {
         let is_terrain = components.iter().map(|component| component.is_terrain);
         let chosen = names.chosen(components);
         if self.kinds.is_empty() || names.means_only_named(components) {
             return chosen;
         }
-        // what somebody calls terrain is no cover
+        // a component named as terrain is not ground cover
         let covers = self.covers(components.len()).zip(is_terrain).map(|(covers, is_terrain)| covers && !is_terrain);
         chosen.into_iter().zip(covers).map(|(chosen, covers)| chosen && !covers).collect()
     }
 
-    /// All of it, for whoever asks.
+    /// The contents as `gnomon check` lists them.
     pub(super) fn told(&self, file: &str, components: &[ComponentNames<'_>]) -> ModelContents {
         let kind = |part: usize| self.kinds.get(part).copied().unwrap_or_default();
         let count = |of: PartKind| (of, (0..components.len()).filter(|part| kind(*part) == of).count());
@@ -97,7 +97,7 @@ impl ReadContents {
     }
 }
 
-/// All names, each with the components that it means; of those that mean as many, names of groups go before components'
+/// All names with the components that they select, most first. Of equal ones, names of groups come before components'
 /// own.
 fn groups(components: &[ComponentNames<'_>]) -> Vec<NameGroup> {
     let mut counts: FxHashMap<&str, (usize, bool)> = FxHashMap::default();
@@ -105,7 +105,7 @@ fn groups(components: &[ComponentNames<'_>]) -> Vec<NameGroup> {
         let (count, _) = counts.entry(name).or_insert((0, true));
         *count += 1;
         for (at, alias) in aliases.iter().enumerate() {
-            // a component is counted once, however often it has a name
+            // a component is counted once, even if it has the name twice
             if alias == name || aliases[..at].contains(alias) {
                 continue;
             }

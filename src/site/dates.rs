@@ -1,4 +1,4 @@
-//! The several days of a request: those of the face, or those of the study.
+//! The days of a request that has several: set by a face, or in the study.
 
 use super::error::{FieldLocation, SiteError};
 use super::overrides::{Overrides, refuse};
@@ -7,8 +7,8 @@ use crate::message::{Field, Message, message};
 use crate::sun::{MOST_DAYS, Reading, SunError, parse_date};
 use chrono::NaiveDate;
 
-/// The days from the first to the last that are asked, or else of the study's `dates` where the request names no date of
-/// its own, and where they are asked; none where a single day is.
+/// The first and the last day, and where they were given: by a face, otherwise by the study's `dates` if no face sets a
+/// date. `None` for a single day.
 pub(super) fn several(
     written: &WrittenSite,
     asked: &Overrides,
@@ -17,7 +17,7 @@ pub(super) fn several(
         (Some(first), Some(last)) => {
             if asked.date.is_some() {
                 let message =
-                    message!["says nothing beside ", Field::FromDate, " and ", Field::ToDate; "leave one out"];
+                    message!["has no effect beside ", Field::FromDate, " and ", Field::ToDate; "leave one out"];
                 return Err(refuse(FieldLocation::Field(Field::Date), message));
             }
             let before = message![format!("{last} is before "), (Field::FromDate, first.to_string()); "exchange them"];
@@ -38,9 +38,9 @@ pub(super) fn several(
     let Some([first, last]) = &study.dates else { return Ok(None) };
     let at = || written.key("study", "dates");
     if study.date.is_some() {
-        return Err(refuse(at(), message!["says nothing beside ", Field::Date; "leave one of the two out"]));
+        return Err(refuse(at(), message!["has no effect beside ", Field::Date; "leave one of the two out"]));
     }
-    // a single date of the command line goes before the file's
+    // a single date from a face has priority over the file's dates
     if asked.date.is_some() || asked.from.as_ref().is_some_and(|from| from.date.is_some()) {
         return Ok(None);
     }
@@ -60,16 +60,16 @@ fn between(first: NaiveDate, last: NaiveDate, at: FieldLocation, before: Message
     Ok(first.iter_days().take_while(|date| *date <= last).collect())
 }
 
-/// A reading that is meant for each day, which has no date of its own.
+/// A reading that applies to each day, and so may have no date.
 pub(super) fn of_each_day(reading: Reading, at: impl Fn() -> FieldLocation) -> Result<Reading, SiteError> {
     if reading.date.is_some() {
-        let what = format!("{reading} has a date, but is meant for each day");
-        return Err(refuse(at(), message![what; "leave it out, and name days with ", Field::Date]));
+        let what = format!("{reading} has a date, but applies to each day");
+        return Err(refuse(at(), message![what; "leave the date out, and give days with ", Field::Date]));
     }
     Ok(reading)
 }
 
-/// The date that stands in the site file.
+/// Reads a date of the site file.
 pub(super) fn date_of(text: &str, at: FieldLocation) -> Result<NaiveDate, SiteError> {
     parse_date(text).map_err(|error| SiteError::sun(at, error))
 }

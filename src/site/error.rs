@@ -1,4 +1,4 @@
-//! What can be wrong with a request. Each error names the place where the request is made, and says what to do.
+//! Errors in a request. Each names where the value was given, and says what to do.
 
 use super::typed::TypedError;
 use crate::formats::ModelError;
@@ -6,7 +6,7 @@ use crate::mesh::MeshError;
 use crate::message::{Field, Message, Piece, Worded, message, pieces, plain_display};
 use crate::sun::SunError;
 
-/// The place where something was requested.
+/// Where a value was given.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FieldLocation {
     /// In a site file.
@@ -18,7 +18,7 @@ pub enum FieldLocation {
         /// The key in it; empty for the table itself.
         key: String,
     },
-    /// A field that a face sets beside the site file.
+    /// A field set by a face.
     Field(Field),
 }
 
@@ -30,7 +30,7 @@ impl FieldLocation {
         }
     }
 
-    /// What is said of it: of a site file its fields are keys.
+    /// A message about it; for a site file, fields are worded as keys.
     fn tells(&self, message: Message) -> Message {
         match self {
             FieldLocation::Key { .. } => message.of_keys().of(self.piece()),
@@ -39,46 +39,46 @@ impl FieldLocation {
     }
 }
 
-/// Why there is no site, in one line.
+/// Why a site could not be loaded, in one line.
 #[derive(Debug, thiserror::Error)]
 pub enum SiteError {
     /// The path cannot be read as a file.
     Unreadable {
-        /// As the user named it.
+        /// The path as the user gave it.
         path: String,
-        /// What the system says.
+        /// The operating system's message.
         why: String,
     },
-    /// The path is a model file, and nothing says where it stands.
+    /// The path is a model file, and neither it nor the user says where the model stands.
     NoPlaceForModel {
-        /// As the user named it.
+        /// The path as the user gave it.
         path: String,
-        /// What its file says of a place that is none.
+        /// What the file says about its place, if that is not a place.
         said: Option<Box<Message>>,
     },
-    /// The model's format is not read; with a hint.
+    /// The file's format is not one that is read; with a hint.
     UnknownFormat(Message),
-    /// The text is not in an encoding of site files.
+    /// The text's encoding is not one that site files may have.
     Encoding {
-        /// As the user named it.
+        /// The file as the user gave it.
         file: String,
-        /// Subject's verb and object.
+        /// The predicate of a sentence about the file.
         what: String,
     },
-    /// Not TOML.
+    /// The text is not TOML.
     Toml {
-        /// As the user named it.
+        /// The file as the user gave it.
         file: String,
-        /// From 1.
+        /// The line number, from 1.
         line: usize,
         /// That line.
         text: String,
-        /// What the parser says.
+        /// The parser's message.
         what: String,
     },
     /// The value cannot be written as TOML.
     Unwritable {
-        /// What the writer says.
+        /// The writer's message.
         what: String,
     },
     /// A table or key that does not exist.
@@ -90,60 +90,60 @@ pub enum SiteError {
     },
     /// A required table or key is missing.
     Missing {
-        /// As the user named it.
+        /// The file as the user gave it.
         file: String,
         /// The table or key.
         what: String,
-        /// What to write.
+        /// An example of it.
         example: String,
     },
     /// A value that cannot be used.
     Value {
-        /// Where it was asked.
+        /// Where it was given.
         at: FieldLocation,
         /// What is wrong, and a hint.
         message: Box<Message>,
     },
     /// A place, reading or window that cannot be used.
     Sun {
-        /// Where it was asked.
+        /// Where it was given.
         at: FieldLocation,
         /// Why.
         error: Box<SunError>,
     },
-    /// The command needs a study.
+    /// The request has no study, and the command needs one.
     NoStudy {
-        /// As the user named it.
+        /// The file as the user gave it.
         file: String,
-        /// What is missing, each with an example.
+        /// The missing fields, each with an example.
         missing: Vec<(Field, &'static str)>,
     },
-    /// The command needs a probe.
+    /// The request has no probe, and the command needs one.
     NoProbe {
-        /// As the user named it.
+        /// The file as the user gave it.
         file: String,
     },
-    /// A name that no component has, in `layers`, `casts`, `receives` or `terrain`, or of components on which points are laid.
+    /// A name in `layers`, `casts`, `receives` or `terrain`, or of components to lay points on, that no component has.
     UnknownName {
-        /// Where it was asked.
+        /// Where it was given.
         at: FieldLocation,
-        /// As written.
+        /// The name as written.
         name: String,
         /// The nearest name in that model.
         nearest: String,
     },
-    /// The models contain no triangles.
+    /// The models have no triangles.
     NoTriangles {
-        /// As the user named it.
+        /// The file as the user gave it.
         file: String,
     },
     /// A mesh in memory has no triangles.
     EmptyMesh,
     /// A model file cannot be read.
     Model(#[from] ModelError),
-    /// The parts cannot become a mesh.
+    /// The parts do not make a mesh.
     Mesh {
-        /// The model whose part is at fault, as the user named it, where one is.
+        /// The model at fault as the user gave it, if the fault is in one.
         file: Option<String>,
         /// Why.
         error: MeshError,
@@ -195,11 +195,11 @@ impl Worded for SiteError {
                 at.tells(message![what; format!("the nearest is \"{nearest}\"")])
             }
             SiteError::NoTriangles { file } => message![
-                format!("{file}: the models hold no triangles, so nothing casts a shadow");
+                format!("{file}: the models have no triangles, so nothing casts a shadow");
                 "check what was exported"
             ],
             SiteError::EmptyMesh => {
-                message!["the mesh holds no triangles, so nothing casts a shadow"; "give it parts that do"]
+                message!["the mesh has no triangles, so nothing casts a shadow"; "add parts with triangles"]
             }
             SiteError::Model(error) => error.message(),
             SiteError::Mesh { file: Some(file), error } => format!("{file}: {error}").into(),
@@ -224,12 +224,12 @@ fn no_study(file: &str, missing: &[(Field, &'static str)]) -> Message {
 }
 
 impl SiteError {
-    /// A fault of place or time, where it was asked.
+    /// An error of place or time, with where the value was given.
     pub(super) fn sun(at: FieldLocation, error: SunError) -> SiteError {
         SiteError::Sun { at, error: Box::new(error) }
     }
 
-    /// A value that cannot be read, where it was asked.
+    /// A value that cannot be read, with where it was given.
     pub(crate) fn typed(at: FieldLocation, error: impl Into<TypedError>) -> SiteError {
         match error.into() {
             TypedError::Sun(error) => SiteError::sun(at, error),
@@ -237,7 +237,7 @@ impl SiteError {
         }
     }
 
-    /// Whether the reading of a model was cancelled, and nothing is wrong.
+    /// Whether the user cancelled the reading of a model, so that nothing is wrong.
     pub fn is_given_up(&self) -> bool {
         matches!(self, SiteError::Model(error) if error.is_given_up())
     }

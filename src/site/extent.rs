@@ -1,11 +1,11 @@
-//! How far the models and their shadows on the ground reach.
+//! The extent of the models, and of their shadows on the ground.
 
 use crate::mesh::Mesh;
 use crate::sun::SunTrack;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-/// An upright box, metres in the world frame.
+/// An axis-aligned box, metres in the world frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Bounds {
     pub(super) low: DVec3,
@@ -13,7 +13,7 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    /// Around all faces but strays that lie far off; `None` where there are none.
+    /// The box around all faces except distant strays; `None` without faces.
     pub(super) fn of(mesh: &Mesh) -> Option<Bounds> {
         let none = Bounds { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
         let bounds = around(mesh, |_| true, none, |corner| Bounds { low: corner, high: corner });
@@ -21,7 +21,7 @@ impl Bounds {
         Some(Bounds { low: bounds.0, high: bounds.1 })
     }
 
-    /// Around both.
+    /// The union.
     fn and(self, other: Bounds) -> Bounds {
         Bounds { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
@@ -31,8 +31,8 @@ impl Bounds {
     }
 }
 
-/// The plan's rectangle around the models and the casters' shadows on the ground at the day instants, without strays; each
-/// shadow is cut at `cut` times the height above the ground. South-west and north-east corner, metres.
+/// The plan's rectangle around the models and the casters' shadows on the ground at the day's instants, without strays.
+/// Each shadow is cut at `cut` times the caster's height above the ground. South-west and north-east corner, metres.
 pub(super) fn with_shadows(
     mesh: &Mesh,
     bounds: Bounds,
@@ -41,8 +41,8 @@ pub(super) fn with_shadows(
     track: &SunTrack,
     cut: f64,
 ) -> [DVec2; 2] {
-    // How far east and north a metre of height is thrown, over all instants. A corner's shadow lies at
-    // corner + height × throw, so a side of the rectangle is reached at that side's extreme throw.
+    // The extreme shadow vectors, east and north, per metre of height over all instants. A corner's shadow lies at
+    // corner + height × vector, so each side of the rectangle is reached with that side's extreme.
     let (mut low_throw, mut high_throw) = (DVec2::ZERO, DVec2::ZERO);
     for instant in track.instants.iter().filter(|instant| !instant.night) {
         let to_sun = instant.to_sun.truncate();
@@ -52,21 +52,21 @@ pub(super) fn with_shadows(
         high_throw = high_throw.max(throw);
     }
     let shadow = |corner: DVec3| {
-        // What lies below the ground throws no shadow on it.
+        // below the ground nothing casts a shadow on it
         let height = (corner.z - ground).max(0.0);
         let [low, high] = [low_throw, high_throw].map(|throw| corner + (height * throw).extend(0.0));
         Bounds { low, high }
     };
-    // what terrain shades beyond its own edge is no measured ground
+    // terrain's shadow beyond its own edge would fall on ground that was not measured
     let casts = |at: usize| casts.get(at) == Some(&true) && !mesh.components[at].is_terrain;
     let Bounds { low, high } = around(mesh, casts, bounds, shadow);
     [low.truncate(), high.truncate()]
 }
 
-/// A box around `first` and what `tell` makes of every corner of the faces of some components, in the world frame; strays
-/// that lie far off are left out.
+/// The union of `first` and the boxes that `tell` makes of every corner of the chosen components' faces, in the world
+/// frame, without distant strays.
 fn around(mesh: &Mesh, of: impl Fn(usize) -> bool, first: Bounds, tell: impl Fn(DVec3) -> Bounds + Sync) -> Bounds {
-    /// Faces that one task looks at, at the least.
+    /// The least number of faces for one task.
     const AT_ONCE: usize = 1 << 12;
     let components = mesh.components.iter().enumerate().filter(|(index, _)| of(*index));
     components.fold(first, |bounds, (_, component)| {

@@ -1,4 +1,4 @@
-//! The site file as written: TOML → [`SiteFile`]. [`crate::site::Site::load`] finds out what it means.
+//! The site file as written: parses TOML into a [`SiteFile`]. [`crate::site::Site::load`] interprets it.
 
 use super::error::{FieldLocation, SiteError};
 use super::keys;
@@ -9,12 +9,12 @@ use serde::de::{DeserializeOwned, Error as _};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use toml::{Table, Value};
 
-/// A site file as written: nothing checked but keys and types.
+/// A site file as written, with only keys and types checked.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct SiteFile {
     /// `[place]`
     pub place: Option<PlaceTable>,
-    /// `[[model]]`, in their order.
+    /// `[[model]]`, in order.
     #[serde(skip_serializing_if = "is_default")]
     pub model: Vec<ModelTable>,
     /// `[ground]`
@@ -29,7 +29,7 @@ pub struct SiteFile {
     /// `[camera]`
     #[serde(skip_serializing_if = "is_default")]
     pub camera: CameraTable,
-    /// `[[probe]]`, in their order.
+    /// `[[probe]]`, in order.
     #[serde(skip_serializing_if = "is_default")]
     pub probe: Vec<ProbeTable>,
 }
@@ -37,39 +37,39 @@ pub struct SiteFile {
 /// `[place]`
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 pub struct PlaceTable {
-    /// What people call it.
+    /// Its name in drawings and reports.
     pub name: Option<String>,
-    /// Degrees, north positive.
+    /// Degrees north.
     pub latitude: Option<f64>,
-    /// Degrees, east positive.
+    /// Degrees east.
     pub longitude: Option<f64>,
     /// Metres above sea level.
     pub elevation: Option<f64>,
-    /// IANA name.
+    /// An IANA name.
     pub time_zone: Option<String>,
-    /// The model's file that proposed it, where one did; a text has it in a comment.
+    /// The model file that proposed the place, if one did. It is written as a comment.
     #[serde(skip)]
     pub source: Option<PlaceSource>,
-    /// The model's file that proposed the elevation alone, where one did.
+    /// The model file that proposed only the elevation, if one did.
     #[serde(skip)]
     pub elevation_source: Option<ElevationSource>,
 }
 
-/// Which file proposed an elevation.
+/// The file that proposed an elevation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ElevationSource {
-    /// The file, and what in it.
+    /// The file and the item in it.
     pub said: String,
-    /// The elevation that it proposed: another one is a person's.
+    /// The elevation as proposed. A different one was set by the user.
     pub elevation: f64,
 }
 
-/// Which file proposed a place.
+/// The file that proposed a place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlaceSource {
-    /// The file, and what in it: `house.ifc, IfcSite`.
+    /// The file and the item in it: `house.ifc, IfcSite`.
     pub said: String,
-    /// The latitude and longitude that it proposed: other ones are a person's.
+    /// The latitude and longitude as proposed. Different ones were set by the user.
     pub at: [f64; 2],
 }
 
@@ -78,9 +78,9 @@ pub struct PlaceSource {
 pub struct ModelTable {
     /// Relative to the site file, or absolute.
     pub path: Option<String>,
-    /// The scene that is read, of a file that has several.
+    /// The scene to read, for a file with several.
     pub scene: Option<SceneName>,
-    /// The axis that is up: `y` or `z`.
+    /// The up axis: `y` or `z`.
     pub up: Option<String>,
     /// Degrees clockwise from the model's north to true north.
     pub north: Option<f64>,
@@ -88,13 +88,13 @@ pub struct ModelTable {
     pub position: Option<[f64; 3]>,
     /// Metres per model unit.
     pub scale: Option<f64>,
-    /// Metres from the ground to the roof of a footprint without a height.
+    /// The height of footprints without one, metres.
     pub default_height: Option<f64>,
-    /// How far a thinned terrain may lie from its heights, metres.
+    /// The greatest error of a thinned terrain, metres.
     pub terrain_error: Option<f64>,
-    /// The classes of measured points that stand there beside the ground.
+    /// The classes of measured points that are read as objects, besides the ground.
     pub classes: Option<Vec<String>>,
-    /// Names of what is read of it; with a `!` before it of what is not.
+    /// The names of what is read; a `!` before a name excludes it.
     pub layers: Option<Vec<String>>,
     /// The reference system of its coordinates.
     pub crs: Option<String>,
@@ -104,14 +104,14 @@ pub struct ModelTable {
     /// What receives.
     #[serde(default, skip_serializing_if = "is_default")]
     pub receives: Names,
-    /// What is terrain; as the model's format says where it is absent.
+    /// What is terrain; if absent, the model's format decides.
     pub terrain: Option<Names>,
 }
 
 /// `[ground]`
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 pub struct GroundTable {
-    /// Metres.
+    /// The plane's height, metres.
     pub level: Option<f64>,
 }
 
@@ -128,7 +128,7 @@ pub struct StudyTable {
     pub to: Option<Text>,
     /// Duration.
     pub step: Option<String>,
-    /// Duration, or `step`.
+    /// A duration, or `step`.
     pub resolution: Option<String>,
     /// A technique's name.
     pub technique: Option<String>,
@@ -150,32 +150,32 @@ pub struct CameraTable {
     pub eye: Option<[f64; 3]>,
     /// Metres.
     pub target: Option<[f64; 3]>,
-    /// Any length but 0.
+    /// Any length except 0.
     pub up: Option<[f64; 3]>,
     /// Vertical, degrees.
     pub fov: Option<f64>,
-    /// A side's name: this side is seen instead, along parallel rays.
+    /// The name of a side, which is shown instead of the perspective, along parallel rays.
     pub side: Option<String>,
 }
 
 /// `[[probe]]`
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 pub struct ProbeTable {
-    /// What people call it.
+    /// Its name in answers.
     pub name: Option<String>,
     /// Metres.
     pub point: Option<[f64; 3]>,
-    /// Any length but 0.
+    /// Any length except 0.
     pub normal: Option<[f64; 3]>,
 }
 
-/// Which components of a model: all, none, or those of some names.
+/// The components of a model that a key selects.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Names {
     /// `true` or `false`.
     All(bool),
-    /// Names of components, nodes, meshes or materials; with a `!` before it all but what has the name.
+    /// The names of components, nodes, meshes or materials; a `!` before a name excludes it.
     Some(Vec<String>),
 }
 
@@ -235,20 +235,20 @@ impl<'de> Deserialize<'de> for Text {
 }
 
 impl SiteFile {
-    /// The text of a site file that reads as this one. Comments are no part of it.
+    /// Writes the text of a site file that parses as this one. Comments are lost.
     ///
     /// # Errors
-    /// What TOML cannot hold.
+    /// A value that TOML cannot represent.
     pub fn to_toml(&self) -> Result<String, SiteError> {
         toml::to_string(self).map_err(|error| SiteError::Unwritable { what: error.to_string() })
     }
 
-    /// Reads a site file's text; `file` names it in errors.
+    /// Parses the text of a site file; `file` names it in errors.
     ///
     /// # Errors
-    /// What is not TOML, unknown tables and keys, values of the wrong type.
+    /// Text that is not TOML, unknown tables and keys, and values of the wrong type.
     pub fn parse(file: &str, text: &str) -> Result<SiteFile, SiteError> {
-        // A mark that Windows editors put first, and TOML does not know.
+        // the byte-order mark of Windows editors, which TOML does not allow
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let root: Table = toml::from_str(text).map_err(|error| {
             let start = error.span().map_or(0, |span| span.start);
@@ -277,7 +277,7 @@ impl SiteFile {
     }
 }
 
-/// What is not said is not written.
+/// Values that are absent are not written.
 fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
@@ -292,10 +292,10 @@ fn table<T: DeserializeOwned>(file: &str, root: &Table, name: &str) -> Result<Op
     root.get(name).map(|value| typed(file, name, &keys::bracketed(name), value)).transpose()
 }
 
-/// A table's values in their types, or which key has the wrong one and how it is written.
+/// A table's values in their types. The error names the key with the wrong type and shows how it is written.
 fn typed<T: DeserializeOwned>(file: &str, name: &str, brackets: &str, value: &Value) -> Result<T, SiteError> {
     T::deserialize(value.clone()).map_err(|error| {
-        // The library tells the key only in its own text: "… \nin `latitude`".
+        // The library names the key only in its text: "… \nin `latitude`".
         let text = error.to_string();
         let key = text.rsplit_once("in `").map_or("", |(_, key)| key.trim_end().trim_end_matches('`'));
         let key = key.split('.').next().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! What a model's file and the site file say of where on Earth the model stands.
+//! Where on Earth a model stands, by its own file and the site file.
 //!
 //! A model stands by its coordinates, if they belong to a map, and otherwise by the first of its anchors that can be
 //! used. What the user wrote has priority over both.
@@ -12,53 +12,54 @@ use crate::formats::{Anchor, AnchorPoint, Coordinates, Model};
 use crate::message::{Message, message, setting};
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
-/// A model that lies farther from its zero than this is brought into the site's frame corner by corner, metres: the
-/// map's scale, some parts in 10,000, would have moved it by metres.
+/// A model farther than this from its origin is brought into the site's frame corner by corner, metres: the map's scale
+/// error, a few parts in 10,000, would otherwise move it by metres.
 const FAR_FROM_ZERO_M: f64 = 5_000.0;
 
-/// Units that differ by less are one: files say "foot" of either foot.
+/// Units whose ratio differs from 1 by less than this are the same. Files say "foot" for both kinds of foot.
 const ONE_UNIT: f64 = 1e-5;
 
-/// Metres of a degree of latitude.
+/// Metres per degree of latitude.
 const DEGREE_M: f64 = 111_195.0;
 
-/// Where a model stands, and who says so.
+/// Where a model stands, and what says so.
 #[derive(Clone, Debug)]
 pub(super) struct Georeference {
     pub(super) reference: Reference,
-    /// In the file's own term: `IfcMapConversion`; or `crs` where the user says it. Empty where nobody says anything.
+    /// The source in the file's own term, such as `IfcMapConversion`; or `crs` if the user gave it; empty without a
+    /// source.
     pub(super) said_by: String,
-    /// What should be known of it, each with the file for its subject.
+    /// Notes for the user, each with the file as its subject.
     pub(super) notes: Vec<Message>,
 }
 
-/// What says where a model stands.
+/// What determines where a model stands.
 #[derive(Clone, Debug)]
 pub(super) enum Reference {
-    /// The site file alone.
+    /// Only the site file.
     Placement,
-    /// Its coordinates, which become those of a map.
+    /// The file's coordinates, which are converted to a map's.
     Map {
         crs: Box<Crs>,
-        /// From the file's own coordinates: to the system's units along the ground, and metres of height.
+        /// From the file's coordinates to the map's units horizontally, and to metres vertically.
         map_from_model: DAffine3,
-        /// Metres of one of the file's units, for what is as short as a step.
+        /// The length of one of the file's units, metres, for short lengths such as a step.
         unit_m: f64,
     },
-    /// A point of the Earth, where its zero stands.
+    /// A point of the Earth for the model's origin.
     Anchor(Box<AnchoredZero>),
 }
 
-/// Why a model cannot stand where it is said.
+/// Why a model cannot stand where its file or the user says.
 pub(super) enum StandFault {
-    /// By a key of the model.
+    /// The value of one of the model's keys.
     Key(&'static str, Message),
-    /// By what its file says; the file is the subject.
+    /// The contents of its file; the message's subject is the file.
     File(Message),
 }
 
 impl StandFault {
-    /// A fault of the reference system of a model's coordinates: of the key, where the user says it, else of the file.
+    /// A fault in the reference system of a model's coordinates: in the key if the user gave it, otherwise in the file.
     pub(super) fn of_crs(placement: &Placement, message: Message) -> StandFault {
         match placement.crs {
             Some(_) => StandFault::Key("crs", message),
@@ -66,7 +67,7 @@ impl StandFault {
         }
     }
 
-    /// What is wrong, whoever says it.
+    /// The message, whatever is at fault.
     pub(super) fn into_message(self) -> Message {
         match self {
             StandFault::Key(_, message) | StandFault::File(message) => message,
@@ -75,10 +76,10 @@ impl StandFault {
 }
 
 impl Georeference {
-    /// What is said of a model.
+    /// What file and user say about where a model stands.
     ///
     /// # Errors
-    /// A system that is not known, where the model's coordinates are of it, and keys that do not go together.
+    /// An unknown system, if the model's coordinates are in it, or keys that contradict each other.
     pub(super) fn of(model: &Model, placement: &Placement) -> Result<Georeference, StandFault> {
         let asked = placement.crs.as_deref().map(Crs::read).transpose();
         let asked = asked.map_err(|error| StandFault::Key("crs", error))?;
@@ -91,13 +92,13 @@ impl Georeference {
         }
     }
 
-    /// What says nothing.
+    /// No statement at all.
     pub(super) fn none() -> Georeference {
         Georeference { reference: Reference::Placement, said_by: String::new(), notes: Vec::new() }
     }
 }
 
-/// Coordinates of a map that the file names. Where the user says how it stands, they are plain metres.
+/// Coordinates in a map that the file names. If the user places the model, they are taken as plain metres.
 fn of_file(model: &Model, placement: &Placement, text: &str) -> Result<Georeference, StandFault> {
     let named = Crs::read(text);
     let written = placement.position.map(|_| "position").or(placement.north_rad.map(|_| "north"));
@@ -116,7 +117,7 @@ fn of_file(model: &Model, placement: &Placement, text: &str) -> Result<Georefere
         (Ok(crs), Some(key)) if crs.kind() != CrsKind::Projected => Err(StandFault::Key(
             key,
             message![
-                format!("the file's coordinates are of {}, and no metres that could be moved or turned", crs.name());
+                format!("the file's coordinates are of {}, which are not metres and cannot be moved or turned", crs.name());
                 "leave it out, or write ", setting("[[model]]", "crs", "`crs`"), " and ", setting("[[model]]", "position", "`position`"), " together: the model is then moved from where it stands"
             ],
         )),
@@ -124,13 +125,13 @@ fn of_file(model: &Model, placement: &Placement, text: &str) -> Result<Georefere
             let name = named.map_or_else(|_| text.to_owned(), |crs| crs.name().to_owned());
             let what =
                 format!("is of {name}, but stands as `{key}` under [[model]] says, its coordinates taken as metres");
-            let notes = vec![message![what; "leave that out, and it stands where its coordinates say"]];
+            let notes = vec![message![what; "leave that out to place it by its coordinates"]];
             Ok(Georeference { notes, ..Georeference::none() })
         }
     }
 }
 
-/// Coordinates of a map, by the user's word or the file's.
+/// Coordinates in a map, named by the user or the file.
 fn of_coordinates(model: &Model, placement: &Placement, crs: Crs, said_by: &str) -> Result<Georeference, StandFault> {
     if placement.north_rad.is_some() {
         let what = format!("{} says which way north is", crs.name());
@@ -150,7 +151,7 @@ fn of_coordinates(model: &Model, placement: &Placement, crs: Crs, said_by: &str)
         let of_file = Crs::read(text).map_or_else(|_| text.clone(), |crs| crs.name().to_owned());
         if of_file != crs.name() {
             notes.push(message![
-                format!("says that it is of {of_file}; "),
+                format!("says that its coordinates are in {of_file}; "),
                 setting("[[model]]", "crs", "`crs` under [[model]]"),
                 format!(" says {}", crs.name())
             ]);
@@ -174,18 +175,18 @@ fn of_coordinates(model: &Model, placement: &Placement, crs: Crs, said_by: &str)
     Ok(Georeference { reference, said_by: said_by.to_owned(), notes })
 }
 
-/// That a model's middle lies far outside of its map.
+/// A note if the model's middle lies far outside of its map.
 fn outside_of_map(model: &Model, reference: &Reference, said_by: Option<&str>) -> Option<Message> {
     let Reference::Map { crs, map_from_model, .. } = reference else { return None };
     let [low, high] = bounds(model, |corner| map_from_model.transform_point3(corner))?;
     place_doubts::outside(crs, (low + high) / 2.0, said_by)
 }
 
-/// By how much a file's numbers are multiplied, along the ground and upwards, to be of a system's units and of metres.
+/// The factors from the file's numbers to the system's units horizontally, and to metres vertically.
 ///
-/// Where the file itself says that they are of a map, those along the ground are in its units, and heights in the unit
-/// that the file says, otherwise in that which the system has for heights, otherwise in metres. Coordinates of a
-/// drawing are in its unit, else in the system's, heights as well.
+/// If the file itself says that its coordinates are in a map, horizontal ones are in the map's units; heights are in
+/// the file's unit, otherwise in the system's unit for heights, otherwise in metres. A drawing's coordinates, heights
+/// included, are in its own unit, otherwise in the system's.
 fn map_units(model: &Model, placement: &Placement, crs: &Crs) -> [f64; 2] {
     let of_file = matches!(model.coordinates, Coordinates::Map(_)) && placement.scale.is_none();
     let said = placement.scale.or(model.unit_m);
@@ -205,9 +206,10 @@ fn map_units(model: &Model, placement: &Placement, crs: &Crs) -> [f64; 2] {
     }
 }
 
-/// That eastings and northings are in another unit than heights, or in the map's, as nobody says one.
+/// A note if eastings and northings are not in the unit of the heights, or are assumed to be in the map's because no
+/// unit is given.
 fn unit_note(model: &Model, placement: &Placement, crs: &Crs, height_m: f64) -> Option<Message> {
-    // a foot to its tenth digit
+    // to ten digits, which distinguish the two kinds of foot
     let [map_m, height_m] = [crs.unit_m(), height_m].map(|unit_m| (unit_m * 1e10).round() / 1e10);
     if crs.kind() != CrsKind::Projected {
         return None;
@@ -217,29 +219,30 @@ fn unit_note(model: &Model, placement: &Placement, crs: &Crs, height_m: f64) -> 
     if placement.scale.is_none() && matches!(model.coordinates, Coordinates::Map(_)) {
         let what =
             format!("has heights in units of {height_m} m, and eastings and northings in those of its map, {map_m} m");
-        return is_other(height_m).then(|| message![what; "if all are in one unit, write its metres as ", scale()]);
+        return is_other(height_m)
+            .then(|| message![what; "if all are in one unit, write its length in metres as ", scale()]);
     }
     let is_said = placement.scale.or(model.unit_m).is_some();
     (!is_said && (map_m - 1.0).abs() > ONE_UNIT).then(|| {
         message![
-            format!("says no unit, and is taken to be in that of its map, {map_m} m");
-            "if it is in another one, write its metres as ", scale()
+            format!("does not give its unit, which is assumed to be that of its map, {map_m} m");
+            "if that is wrong, write the unit's length in metres as ", scale()
         ]
     })
 }
 
-/// The first of the anchors that can be used, with what the others say otherwise.
+/// The first anchor that can be used, with notes on what the others say differently.
 fn of_anchors(model: &Model, placement: &Placement, asked: Option<&Crs>) -> Georeference {
     let mut notes = Vec::new();
     let farthest_m = farthest_m(model, placement);
     let (read, unplaced) = read_anchors(model, asked, farthest_m, &mut notes);
-    // the zero of what lies far from it is a number of the map alone
+    // for a model far from its origin, the origin is only a number in the map
     let outside = |(anchor, zero): &(&Anchor, AnchoredZero)| {
         let (crs, at) = zero.on_map.as_ref().filter(|_| farthest_m <= FAR_FROM_ZERO_M)?;
         place_doubts::outside(crs, *at, Some(anchor.said_by))
     };
     notes.extend(read.iter().filter_map(outside));
-    // who says where need not say which way, and the other way round; a point outside of its map comes last
+    // one anchor may give the position and another the north; a point outside of its map comes last
     let is_there = |(_, zero): &(&Anchor, AnchoredZero)| zero.at.is_some();
     let sure = read.iter().position(|said| is_there(said) && outside(said).is_none());
     let best = sure.or_else(|| read.iter().position(is_there)).unwrap_or(0);
@@ -247,7 +250,7 @@ fn of_anchors(model: &Model, placement: &Placement, asked: Option<&Crs>) -> Geor
     let Some((anchor, mut zero)) = read.get(best).cloned().or_else(|| map_north(model, &mut notes)) else {
         return Georeference { notes, ..Georeference::none() };
     };
-    // an angle to the north of a map that is not known is better than none
+    // an angle to the north of an unknown map is better than none
     if zero.north.is_none() && north.is_none() && zero.on_map.is_none() {
         zero.north = map_north(model, &mut notes).and_then(|(_, of_map)| of_map.north);
     }
@@ -266,7 +269,7 @@ fn of_anchors(model: &Model, placement: &Placement, asked: Option<&Crs>) -> Geor
     );
     notes.extend(unplaced.iter().filter_map(|other| place_doubts::turned_apart(anchor.said_by, &zero, other)));
     notes.extend(scale_doubt(anchor, placement.unit_m(model)));
-    // the file's numbers, on the map that the user names
+    // the file's numbers, in the map that the user names
     let is_on_asked = asked.is_some() && zero.on_map.is_some();
     let said_by = if is_on_asked { format!("{} with `crs`", anchor.said_by) } else { anchor.said_by.to_owned() };
     if farthest_m > FAR_FROM_ZERO_M
@@ -278,7 +281,7 @@ fn of_anchors(model: &Model, placement: &Placement, asked: Option<&Crs>) -> Geor
     Georeference { reference: Reference::Anchor(Box::new(zero)), said_by, notes }
 }
 
-/// The anchors that say something of the zero, and those that cannot be used.
+/// The anchors that can be used, and notes on those that cannot.
 fn read_anchors<'a>(
     model: &'a Model,
     asked: Option<&Crs>,
@@ -303,7 +306,7 @@ fn read_anchors<'a>(
     (read, unplaced)
 }
 
-/// Where an anchor puts the zero; or why it cannot be used, as a note.
+/// The model's origin by an anchor, or a note on why it cannot be used.
 fn zero(anchor: &Anchor, asked: Option<&Crs>, farthest_m: f64) -> Result<AnchoredZero, Message> {
     let said_by = anchor.said_by;
     match &anchor.at {
@@ -320,7 +323,7 @@ fn zero(anchor: &Anchor, asked: Option<&Crs>, farthest_m: f64) -> Result<Anchore
             let is_point = latitude_deg.abs() <= 90.0 && longitude_deg.abs() <= 360.0;
             if !is_point {
                 let what = format!(
-                    "says by its {said_by} that it stands at {latitude_deg}, {longitude_deg}, which is no place"
+                    "says by its {said_by} that it stands at {latitude_deg}, {longitude_deg}, which is not a place"
                 );
                 return Err(message![what]);
             }
@@ -340,7 +343,7 @@ fn zero(anchor: &Anchor, asked: Option<&Crs>, farthest_m: f64) -> Result<Anchore
     }
 }
 
-/// A note if an anchor does not say the unit of its point, and its map is in another one than is assumed.
+/// A note if an anchor does not give the unit of its point, and its map has a different unit from the assumed one.
 fn unit_doubt(model: &Model, anchor: &Anchor, zero: &AnchoredZero) -> Option<Message> {
     let (assumed_m, (crs, at)) = model.assumed_map_unit_m.zip(zero.on_map.as_ref())?;
     let written = at.truncate() * crs.unit_m() / assumed_m;
@@ -363,12 +366,12 @@ fn unit_doubt(model: &Model, anchor: &Anchor, zero: &AnchoredZero) -> Option<Mes
     })
 }
 
-/// The system of an anchor on a map: the user's word, otherwise the file's.
+/// The reference system of an anchor in a map: the user's, otherwise the file's.
 fn crs_of_anchor(text: &str, asked: Option<&Crs>, said_by: &str) -> Result<Crs, Message> {
     match asked {
         Some(asked) => Ok(asked.clone()),
         None if text.trim().is_empty() => {
-            let what = format!("says by its {said_by} where on a map it stands, and not on which map");
+            let what = format!("says by its {said_by} where on a map it stands, but not on which map");
             Err(message![
                 what;
                 "write ",
@@ -383,7 +386,7 @@ fn crs_of_anchor(text: &str, asked: Option<&Crs>, said_by: &str) -> Result<Crs, 
     }
 }
 
-/// Where an anchor on a map puts the zero: easting and northing in metres, on maps in feet as well.
+/// The model's origin by an anchor in a map: easting and northing in metres, also for maps in feet.
 fn zero_on_map(
     anchor: &Anchor,
     crs: Crs,
@@ -416,11 +419,11 @@ fn zero_on_map(
     Ok(AnchoredZero { at: Some(at), has_height: height_m.is_some(), on_map: Some((crs, on_map)), north })
 }
 
-/// The north of a map that is not known, where nobody says more: off by the map's convergence, which a note says.
+/// The north of an unknown map, if nothing else gives a north. It is off by the map's convergence, as a note says.
 fn map_north<'a>(model: &'a Model, notes: &mut Vec<Message>) -> Option<(&'a Anchor, AnchoredZero)> {
     let (anchor, north) = model.anchors.iter().find_map(|anchor| Some((anchor, anchor.north_rad?)))?;
     let what = format!(
-        "says by its {} which way the north of a map is, and it is taken for true north: in most maps that is wrong by up to 2°",
+        "says by its {} which way the north of a map is, and that is taken as true north: with most maps the error is up to 2°",
         anchor.said_by
     );
     notes.push(message![
@@ -434,8 +437,8 @@ fn map_north<'a>(model: &'a Model, notes: &mut Vec<Message>) -> Option<(&'a Anch
     Some((anchor, AnchoredZero { at: None, has_height: false, on_map: None, north }))
 }
 
-/// A model far from its zero, by an anchor on a map: its coordinates become the map's, by the file's own scale. None
-/// where the user says how it stands.
+/// For a model far from its origin with an anchor in a map: takes its coordinates as the map's, with the file's own
+/// scale. `None` if the user places the model.
 fn beyond(model: &Model, placement: &Placement, anchor: &Anchor, zero: &AnchoredZero) -> Option<Reference> {
     let (AnchorPoint::Map { scale, .. }, Some((crs, at))) = (&anchor.at, &zero.on_map) else { return None };
     let Some(AnchoredNorth::Map(north)) = zero.north else { return None };
@@ -450,7 +453,7 @@ fn beyond(model: &Model, placement: &Placement, anchor: &Anchor, zero: &Anchored
     Some(Reference::Map { crs: Box::new(crs.clone()), map_from_model, unit_m })
 }
 
-/// Metres from the zero to the middle of a box around the model, along the ground.
+/// The horizontal distance from the origin to the middle of the model's box, metres.
 fn farthest_m(model: &Model, placement: &Placement) -> f64 {
     let upright = placement.upright(model) * placement.unit_m(model);
     let Some([low, high]) = bounds(model, |corner| corner) else { return 0.0 };
@@ -458,8 +461,8 @@ fn farthest_m(model: &Model, placement: &Placement) -> f64 {
     if middle.is_finite() { middle.length() } else { 0.0 }
 }
 
-/// A map's scale says how long a metre of the file is on the map. The model keeps its own size, of the file's unit: the
-/// difference of a few parts in 10,000 is the map's distortion. A note reports a scale that is quite another one.
+/// A note on an implausible map scale, which says how long a metre of the file is in the map. The model always keeps
+/// its own size in the file's unit: the usual difference of a few parts in 10,000 is the map's distortion.
 fn scale_doubt(anchor: &Anchor, unit_m: f64) -> Option<Message> {
     const DISTORTION: f64 = 0.005;
     let AnchorPoint::Map { scale, .. } = anchor.at else { return None };

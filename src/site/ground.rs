@@ -1,4 +1,4 @@
-//! The ground's height: as it is given, or as the models suggest.
+//! The height of the ground's plane: as given, or found from the models.
 
 use super::error::{FieldLocation, SiteError};
 use super::extent::Bounds;
@@ -9,13 +9,13 @@ use crate::choice::Receivers;
 use crate::mesh::Mesh;
 use crate::message::{Field, Message, few, message, setting};
 
-/// Nobody asks for a ground farther from the place's point than this, metres.
+/// The greatest height that a ground may have, above or below the place's point, metres.
 const FARTHEST_M: f64 = 1e5;
 
-/// The ground: what it is, the height of its plane, the source of that height, and how far the models reach below it.
+/// The ground: its kind, the height of its plane and the source of that height, and how far the models reach below it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ground {
-    /// What is judged where the ground alone is judged.
+    /// What is judged in plans of the ground alone.
     pub kind: GroundKind,
     /// The plane's height, metres.
     pub level: f64,
@@ -23,11 +23,12 @@ pub struct Ground {
     pub from: GroundFrom,
     /// The models' lowest point, metres.
     pub lowest: f64,
-    /// What of their upper side the plane hides; where the models' own zero would have hidden terrain, that.
+    /// The part of the models' upper side that the plane hides. If a plane at the models' own zero would have hidden
+    /// terrain, that part.
     buried: Option<BuriedShare>,
 }
 
-/// The kind of ground. It is found once, with the models, and everything that depends on it reads it here.
+/// The kind of ground. It is determined once, with the models; everything that depends on it reads it here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum GroundKind {
     /// The plane alone.
@@ -37,7 +38,7 @@ pub enum GroundKind {
 }
 
 impl GroundKind {
-    /// Of a mesh of which these components receive: terrain that does not is looked through.
+    /// The kind of ground of a mesh. Terrain that does not receive is looked through.
     fn of(mesh: &Mesh, receives: &[bool]) -> GroundKind {
         let mut components = mesh.components.iter().zip(receives);
         match components.any(|(component, receives)| component.is_terrain && *receives) {
@@ -70,8 +71,8 @@ impl GroundFrom {
 }
 
 impl Ground {
-    /// As it is said. Where nobody says it: the lowest point below terrain; else 0 where the models reach through 0 and
-    /// nothing that looks like terrain is hidden there; else their lowest point.
+    /// The height as given. Otherwise: below terrain the lowest point; else 0 if the models reach through 0 and nothing
+    /// that looks like terrain is hidden there; else their lowest point.
     pub(super) fn of(mesh: &Mesh, bounds: Bounds, receives: &[bool], said: Option<f64>) -> Ground {
         let (lowest, highest) = (bounds.low.z, bounds.high.z);
         let kind = GroundKind::of(mesh, receives);
@@ -93,9 +94,9 @@ impl Ground {
         Ground { kind: GroundKind::Plane, level, from: GroundFrom::Site, lowest: level, buried: None }
     }
 
-    /// As [`Ground::of`] where nobody says it.
+    /// As [`Ground::of`], without a given height.
     pub(super) fn found(mesh: &Mesh, receives: &[bool]) -> Ground {
-        // a site has a triangle
+        // a site always has a triangle
         Self::of(mesh, Bounds::of(mesh).unwrap_or_default(), receives, None)
     }
 
@@ -135,7 +136,7 @@ impl Ground {
             GroundFrom::Site if above > ON_GROUND_M => format!("{level}; the models begin {} above it", metres(above)),
             GroundFrom::Site => level,
             GroundFrom::Zero => format!("{level}, the models' own zero; they reach {below_it}"),
-            // of two states
+            // with a change, of both states
             GroundFrom::Lowest if below > 0.0 => {
                 format!("{level}, the lowest point of the models before; after they reach {below_it}")
             }
@@ -187,7 +188,7 @@ impl Ground {
         notes
     }
 
-    /// Which terrain the ground is, and what lies beyond it.
+    /// A note on which terrain is the ground, and what lies beyond it.
     fn terrain_note(&self, mesh: &Mesh, receives: &[bool]) -> Option<Message> {
         if self.kind == GroundKind::Plane {
             return None;
@@ -220,10 +221,10 @@ fn percent(share: f64) -> String {
     format!("{} %", (share * 100.0).round().clamp(1.0, 100.0))
 }
 
-/// The ground's height, where the command line or the site file says it.
+/// The ground's height as set by a face or the site file.
 ///
 /// # Errors
-/// [`SiteError::Value`] where it is no height.
+/// [`SiteError::Value`] if it is not a height.
 pub(super) fn level(written: &WrittenSite, asked: &Overrides) -> Result<Option<f64>, SiteError> {
     let (level, at) = match (asked.ground, written.site.ground.level) {
         (Some(level), _) => (level, FieldLocation::Field(Field::Ground)),
@@ -233,16 +234,16 @@ pub(super) fn level(written: &WrittenSite, asked: &Overrides) -> Result<Option<f
     checked(level, at).map(Some)
 }
 
-/// A ground's height that is one.
+/// Checks the height of a ground.
 ///
 /// # Errors
-/// [`SiteError::Value`] where it is none.
+/// [`SiteError::Value`] if it is not a height.
 pub(super) fn checked(level: f64, at: FieldLocation) -> Result<f64, SiteError> {
-    // a NaN is not within either
+    // false for NaN
     if level.abs() <= FARTHEST_M {
-        // −0 is 0
+        // turns −0 into 0
         return Ok(level + 0.0);
     }
-    let what = format!("{level} is no height of a ground");
+    let what = format!("{level} is not a height of the ground");
     Err(refuse(at, message![what; "write metres above the place's point, for example 0.0"]))
 }

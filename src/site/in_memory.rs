@@ -1,4 +1,4 @@
-//! A site without a file, which a program puts together itself.
+//! A site that a program makes without a file.
 
 use super::error::{FieldLocation, SiteError};
 use super::extent::{Bounds, with_shadows};
@@ -13,15 +13,15 @@ use crate::sun::{Place, SunTrack};
 use crate::view::Grid;
 
 impl Site {
-    /// A site with a mesh in the world frame, as from a file that says nothing else. Everything casts and receives,
-    /// technique and engine are chosen for the machine, and the camera sees everything. To change that, set the fields;
-    /// a study refuses `casts` and `receives` that do not have one entry for each component.
+    /// Makes a site from a mesh in the world frame, with the same defaults as a site file. Everything casts and
+    /// receives, technique and engine are chosen for the machine, and the camera sees everything. To change that, set
+    /// the fields. A study refuses `casts` and `receives` unless they have one entry for each component.
     ///
-    /// Without a height the ground is found as for a file: at the mesh's own zero, or at its lowest point. Components
-    /// that say that they are terrain ([`crate::mesh::Component::is_terrain`]) are the ground.
+    /// If no height is given, the ground is found as for a file: at the mesh's own zero, or at its lowest point.
+    /// Components marked as terrain ([`crate::mesh::Component::is_terrain`]) are the ground.
     ///
     /// # Errors
-    /// A mesh without a triangle, a height that is none, a track without an instant, a grid that is no plan.
+    /// A mesh without a triangle, a height that is not one, a track without an instant, or a grid that is not a plan.
     pub fn in_memory(
         place: Place,
         mesh: Mesh,
@@ -32,7 +32,7 @@ impl Site {
         let bounds = Bounds::of(&mesh).ok_or(SiteError::EmptyMesh)?;
         let level = ground.map(|level| ground::checked(level, FieldLocation::Field(Field::Ground))).transpose()?;
         if track.instants.is_empty() {
-            return Err(refuse(FieldLocation::Field(Field::From), message!["the track has no instant"; "give it one"]));
+            return Err(refuse(FieldLocation::Field(Field::From), message!["the track has no instant"; "add one"]));
         }
         plan::check(&grid)?;
         let all = vec![true; mesh.components.len()];

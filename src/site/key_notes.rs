@@ -1,14 +1,14 @@
-//! Notes on keys of a model: those that its format does not use, and those that have priority over what its file says.
+//! Notes on a model's keys: those that its format does not use, and those that override what its file says.
 
 use super::file::ModelTable;
 use super::placement::Placement;
 use crate::formats::{Model, Up, keys_of};
 use crate::message::{Message, message};
 
-/// Units that differ by less, of one, are the same.
+/// Units whose ratio differs from 1 by less than this are the same.
 const ONE_UNIT: f64 = 1e-6;
 
-/// What is said of the keys of one of the models, with the model for its subject.
+/// Returns the notes on the keys of one of the models. Their subject is the model.
 pub(super) fn of(tables: &[ModelTable], index: usize, placement: &Placement, model: &Model) -> Vec<Message> {
     let unused = tables.get(index).map(|table| unused(table, tables, model)).unwrap_or_default();
     unused.into_iter().chain(of_unit(placement, model)).chain(of_axis(placement, model)).collect()
@@ -16,7 +16,7 @@ pub(super) fn of(tables: &[ModelTable], index: usize, placement: &Placement, mod
 
 fn unused(table: &ModelTable, tables: &[ModelTable], model: &Model) -> Vec<Message> {
     let Some(used) = keys_of(model.format) else { return Vec::new() };
-    // of several models the command line says a height for all, which is meant for those that have none
+    // a height that the command line sets for all of several models is meant for those that have footprints
     let is_for_all = tables.len() > 1 && tables.iter().all(|other| other.default_height == table.default_height);
     let written = [
         ("scene", table.scene.is_some()),
@@ -32,11 +32,11 @@ fn unused(table: &ModelTable, tables: &[ModelTable], model: &Model) -> Vec<Messa
 fn of_unit(placement: &Placement, model: &Model) -> Option<Message> {
     let (scale, unit_m) = placement.scale.zip(model.unit_m)?;
     let differs = (scale / unit_m - 1.0).abs() > ONE_UNIT;
-    differs.then(|| message![format!("has a unit of {scale} m by `scale`, and of {unit_m} m by itself")])
+    differs.then(|| message![format!("has a unit of {scale} m by `scale`, and of {unit_m} m by its file")])
 }
 
 fn of_axis(placement: &Placement, model: &Model) -> Option<Message> {
     let up = placement.up.filter(|up| model.up_is_said && *up != model.up)?;
     let word = |up: Up| up.word();
-    Some(message![format!("has {} up by `up`, and {} by itself", word(up), word(model.up))])
+    Some(message![format!("has {} up by `up`, and {} by its file", word(up), word(model.up))])
 }

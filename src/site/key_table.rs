@@ -1,5 +1,5 @@
-//! Every key that a site file may have. The reader refuses all others, errors take their examples from here, and
-//! `docs/site-file.md` is written from it.
+//! Every key that a site file may have. The parser refuses all others, errors take their examples from this table, and
+//! `docs/site-file.md` is generated from it.
 
 use crate::choice::Method;
 use crate::view::Side;
@@ -34,7 +34,7 @@ pub enum ValueType {
     TwoMoments,
     /// A number.
     Number,
-    /// That many numbers in a list.
+    /// This many numbers in a list.
     Numbers(usize),
     /// Text in quotes, or a whole number.
     TextOrNumber,
@@ -46,16 +46,15 @@ pub enum ValueType {
     Word(fn() -> Vec<&'static str>),
 }
 
-/// The tables in the order in which they are explained: the name, whether there may be several, and what the table is
-/// about.
+/// The tables in the order of the documentation: the name, whether there may be several, and what the table is about.
 pub const SITE_TABLES: &[(&str, bool, &str)] = &[
     ("place", false, "Where on earth the models stand."),
     ("model", true, "A model file of any [format](formats.md). There is one table for each model, and at least one."),
-    ("ground", false, "The horizontal plane that is the ground where there is no terrain."),
+    ("ground", false, "The horizontal plane that is the ground outside of any terrain."),
     ("study", false, "The instants that are computed. Options of the command can replace or supply single keys."),
-    ("plan", false, "The raster of cells in which ground and roofs are judged."),
-    ("camera", false, "From where the perspective is seen, or which side an elevation shows."),
-    ("probe", true, "A point whose hours of sun `gnomon probe` finds. There may be any number."),
+    ("plan", false, "The raster of cells on which ground and roofs are judged."),
+    ("camera", false, "The perspective's camera, or the side that an elevation shows."),
+    ("probe", true, "A point whose times in the sun `gnomon probe` finds. There may be any number."),
 ];
 
 const fn key(table: &'static str, key: &'static str, value: ValueType, example: &'static str) -> SiteKey {
@@ -88,14 +87,14 @@ fn up_words() -> Vec<&'static str> {
     crate::formats::Up::WORDS.iter().map(|(word, _)| *word).collect()
 }
 
-/// Every key, table by table.
+/// Every key, by table.
 pub const SITE_KEYS: &[SiteKey] = &[
     key("place", "name", ValueType::Text, "name = \"Champ de Mars, Paris\"")
         .default("none")
-        .means("What drawings and reports call the place."),
+        .means("The place's name in drawings and reports."),
     key("place", "latitude", ValueType::Number, "latitude = 48.8583")
         .unit("degrees")
-        .default("must be written, unless a model's file says the place")
+        .default("required, unless a model's file gives the place")
         .means("North is positive, −90 to 90."),
     key("place", "longitude", ValueType::Number, "longitude = 2.2945")
         .unit("degrees")
@@ -103,13 +102,13 @@ pub const SITE_KEYS: &[SiteKey] = &[
         .means("East is positive, −180 to 180."),
     key("place", "elevation", ValueType::Number, "elevation = 35.0")
         .unit("metres")
-        .default("as a model's file says, else 0")
+        .default("as a model's file says, otherwise 0")
         .means("Height above sea level, −500 to 9000. It sets the air's pressure, and so refraction."),
     key("place", "time_zone", ValueType::Text, "time_zone = \"Europe/Paris\"")
         .default("found from the coordinates")
-        .means("The IANA name of the zone whose clock is read."),
+        .means("The IANA name of the time zone."),
     key("model", "path", ValueType::Text, "path = \"tower.glb\"")
-        .default("must be written")
+        .default("required")
         .means("The file, relative to the site file, or absolute."),
     key("model", "scene", ValueType::TextOrNumber, "scene = \"existing\"")
         .default("the file's default scene, or its first")
@@ -118,85 +117,85 @@ pub const SITE_KEYS: &[SiteKey] = &[
              number.",
         ),
     key("model", "up", ValueType::Word(up_words), "up = \"z\"")
-        .default("as the file says, else as its [format](formats.md) has it")
+        .default("as the file says, otherwise as usual for its [format](formats.md)")
         .means("Which axis of the model points upwards."),
-    key("model", "north", ValueType::Number, "north = 0.0").unit("degrees").default("as the file says, else 0").means(
+    key("model", "north", ValueType::Number, "north = 0.0").unit("degrees").default("as the file says, otherwise 0").means(
         "The angle clockwise from the model's north to true north. The model's north is −z, or +y where z is \
              up.",
     ),
     key("model", "position", ValueType::Numbers(3), "position = [0.0, 0.0, 0.0]")
         .unit("metres")
-        .default("where the file says, else `[0, 0, 0]`")
+        .default("as the file says, otherwise `[0, 0, 0]`")
         .means(
-            "Where the model's origin lies, east, north and up of the place. The model is scaled first, then \
+            "The model's origin, in metres east, north and up of the place. The model is scaled first, then \
              turned, then moved.",
         ),
     key("model", "scale", ValueType::Number, "scale = 1.0")
         .unit("metres")
-        .default("as the file says, else 1")
+        .default("as the file says, otherwise 1")
         .means("The length of one unit of the model: 0.001 for a model in millimetres."),
     key("model", "default_height", ValueType::Number, "default_height = 9.0")
         .unit("metres")
         .default("none: such footprints are left out")
-        .means("The height of [footprints](formats.md#footprints) that say none."),
+        .means("The height of [footprints](formats.md#footprints) that have none."),
     key("model", "terrain_error", ValueType::Number, "terrain_error = 0.1")
         .unit("metres")
         .default("0.1")
-        .means("How far the triangles of a [raster of heights](formats.md#geotiff) may lie from its heights, at most."),
+        .means("The greatest vertical distance of the triangles from the heights of a [raster](formats.md#geotiff)."),
     key("model", "classes", ValueType::Texts, "classes = [\"building\", \"vegetation\"]")
         .default("the ground alone")
         .means(
-            "Which classes of [measured points](formats.md#las-and-laz) stand there beside the ground: `building`, \
+            "Which classes of [measured points](formats.md#las-and-laz) are read besides the ground: `building`, \
              `vegetation`, `bridge`, `water`.",
         ),
     key("model", "layers", ValueType::Texts, "layers = [\"walls\", \"!furniture\"]").default("all").means(
-        "What of the file is read, by names as in `casts`: layers, storeys, groups, materials or components. What is not \
+        "What of the file is read, by names as in `casts`: layers, storeys, groups, materials or components. The rest is not \
              read stands nowhere, and is counted among what was left out.",
     ),
     key("model", "crs", ValueType::Text, "crs = \"EPSG:25832\"").default("as the file says").means(
-        "The reference system of the model's coordinates, which gives position and north: its number in the EPSG \
+        "The reference system of the model's coordinates, which determines position and north: its number in the EPSG \
              dataset, its name, WKT, or PROJ's text. See [georeference.md](georeference.md).",
     ),
     key("model", "casts", ValueType::Names, "casts = [\"roof\", \"walls\"]").default("true").means(
-        "What casts shadows: everything but ground cover (roads, water), nothing, or what the names name; \
-             `\"!glass\"` takes out what is named glass.",
+        "What casts shadows: everything but ground cover (roads, water), nothing, or what has one of the names; \
+             `\"!glass\"` excludes what has the name glass.",
     ),
     key("model", "receives", ValueType::Names, "receives = true")
         .default("true")
-        .means("What is judged, by names as in `casts`. What does not receive is looked through."),
+        .means("What is judged, by names as in `casts`. Judging and drawings look through what does not receive."),
     key("model", "terrain", ValueType::Names, "terrain = true")
-        .default("what the format says to be terrain")
-        .means("What is [terrain](#terrain), by names as in `casts`: the ground as it was measured."),
+        .default("what the file's format marks as terrain")
+        .means("What is [terrain](#terrain), by names as in `casts`: the measured ground."),
     key("ground", "level", ValueType::Number, "level = 0.0")
         .unit("metres")
         .default("[found from the models](#the-ground)")
         .means("The ground's height above the place's point."),
     key("study", "date", ValueType::Moment, "date = 2026-09-18")
-        .default("`date` or `dates` must be written")
+        .default("`date` or `dates` is required")
         .means("The day."),
     key("study", "dates", ValueType::TwoMoments, "dates = [\"2026-01-01\", \"2026-12-31\"]")
-        .default("`date` or `dates` must be written")
+        .default("`date` or `dates` is required")
         .means(
             "The first and the last of several days, at most ten years apart, each with the same window. Not \
              together with `date`.",
         ),
     key("study", "from", ValueType::Moment, "from = \"10:00\"")
-        .default("with `dates` the day's beginning, else must be written")
+        .default("with `dates` the day's beginning, otherwise required")
         .means("Where each day's window begins: a local clock time, `\"sunrise\"` or `\"sunrise+1h30\"`."),
     key("study", "to", ValueType::Moment, "to = \"14:00\"")
-        .default("with `dates` the day's end, else must be written")
+        .default("with `dates` the day's end, otherwise required")
         .means(
             "Where the window ends; a clock time earlier than `from` is on the next day. `\"sunset-1h30\"` is \
              allowed, too.",
         ),
     key("study", "step", ValueType::Text, "step = \"30min\"")
-        .default("must be written")
+        .default("required")
         .means("The time from one instant to the next: `\"30min\"`, `\"1h\"`, `\"1h30\"`, `\"90s\"`."),
     key("study", "resolution", ValueType::Text, "resolution = \"1min\"")
         .default("on a single day `\"1min\"`, or the step where that is shorter; on several days `\"step\"`")
         .means(
-            "To within what time the moments are found at which a cell's light changes between two instants, by halving; see \
-             [techniques.md](techniques.md#between-instants). `\"step\"`: the instants alone.",
+            "The precision of the moments at which a cell's light changes between two instants, which are found by halving; see \
+             [techniques.md](techniques.md#between-instants). `\"step\"` uses the instants alone.",
         ),
     key("study", "technique", ValueType::Word(technique_words), "technique = \"auto\"")
         .default("`\"auto\"`, the fastest exact one")
@@ -204,7 +203,7 @@ pub const SITE_KEYS: &[SiteKey] = &[
     key("plan", "region", ValueType::Numbers(4), "region = [-300, -300, 300, 300]")
         .unit("metres")
         .default("the models and their shadows, each shadow cut at 4.3 times its height (a sun below 13°)")
-        .means("The rectangle's west, south, east and north border, counted from the place."),
+        .means("The rectangle's west, south, east and north border, measured from the place."),
     key("plan", "cell", ValueType::Number, "cell = 0.5")
         .unit("metres")
         .default("the longer side over 2048, but at least a millimetre")
@@ -212,10 +211,10 @@ pub const SITE_KEYS: &[SiteKey] = &[
     key("camera", "eye", ValueType::Numbers(3), "eye = [250, -300, 180]")
         .unit("metres")
         .default("from the sunlit side, with the models and their shadows in view")
-        .means("Where the camera stands, east, north and up of the place."),
+        .means("The camera's position, east, north and up of the place."),
     key("camera", "target", ValueType::Numbers(3), "target = [0, 0, 60]")
         .unit("metres")
-        .default("the middle of what is to be seen")
+        .default("the middle of what is in view")
         .means("The point that the camera looks at."),
     key("camera", "up", ValueType::Numbers(3), "up = [0, 0, 1]")
         .default("`[0, 0, 1]`")
@@ -225,17 +224,17 @@ pub const SITE_KEYS: &[SiteKey] = &[
         .default("40")
         .means("The vertical field of view, 1 to 170."),
     key("camera", "side", ValueType::Word(side_words), "side = \"south\"").default("none").means(
-        "Shows this side as an elevation instead of the perspective: along parallel rays, as much as the \
-             perspective sees at `target`; without `eye` all models.",
+        "Shows this side as an elevation, along parallel rays, instead of the perspective. It shows the same extent as the \
+             perspective at `target`; without `eye`, all models.",
     ),
     key("probe", "name", ValueType::Text, "name = \"kitchen window\"")
         .default("probe 1, probe 2, …")
-        .means("What the answer calls the point."),
+        .means("The point's name in the answer."),
     key("probe", "point", ValueType::Numbers(3), "point = [12.0, -3.0, 4.5]")
         .unit("metres")
-        .default("must be written")
-        .means("Where it is, east, north and up of the place."),
+        .default("required")
+        .means("Its position, east, north and up of the place."),
     key("probe", "normal", ValueType::Numbers(3), "normal = [0, -1, 0]")
-        .default("none: it is free on all sides")
-        .means("The direction that it faces, as a window does, of any length but 0."),
+        .default("none: the sun may come from all sides")
+        .means("The direction that it faces, like a window's, as a vector of any length except 0."),
 ];

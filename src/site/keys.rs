@@ -1,29 +1,29 @@
-//! Checks the keys of a site file, and says what to do about one that does not exist.
+//! Checks the keys of a site file, and suggests the nearest for one that does not exist.
 
 use super::error::{FieldLocation, SiteError};
 use super::key_table::{SITE_KEYS, SITE_TABLES, SiteKey};
 use super::overrides::refuse;
 use toml::{Table, Value};
 
-/// How a key is written, for errors.
+/// An example of a key, for errors.
 pub(super) fn example(table: &str, key: &str) -> &'static str {
     SITE_KEYS.iter().find(|known| (known.table, known.key) == (table, key)).map_or("", |known| known.example)
 }
 
-/// Whether there may be several of a table.
+/// Whether a site file may have several of a table.
 fn is_list(table: &str) -> bool {
     SITE_TABLES.iter().any(|(name, is_list, _)| *name == table && *is_list)
 }
 
-/// A table's name as it is written.
+/// A table's heading.
 pub(super) fn bracketed(table: &str) -> String {
     if is_list(table) { format!("[[{table}]]") } else { format!("[{table}]") }
 }
 
-/// Refuses every table and key that is not known, and tables that are no tables.
+/// Refuses unknown tables and keys, and values where tables are expected.
 ///
 /// # Errors
-/// [`SiteError::Unknown`] with the nearest known one, [`SiteError::Value`].
+/// [`SiteError::Unknown`] with the nearest known key, or [`SiteError::Value`].
 pub(super) fn check(file: &str, root: &Table) -> Result<(), SiteError> {
     for (name, value) in root {
         let known = SITE_TABLES.iter().any(|(table, ..)| table == name);
@@ -50,7 +50,7 @@ pub(super) fn check(file: &str, root: &Table) -> Result<(), SiteError> {
     Ok(())
 }
 
-/// What one of a list's tables is called in errors: by its number where there are several.
+/// How errors refer to one of a list's tables: with its number if there are several.
 pub(super) fn numbered(list: &str, index: usize, tables: usize) -> String {
     let brackets = bracketed(list);
     if tables > 1 { format!("{brackets} number {}", index + 1) } else { brackets }
@@ -68,7 +68,7 @@ fn check_keys(file: &str, name: &str, brackets: &str, table: &Table) -> Result<(
     Ok(())
 }
 
-/// A name before any table: a misspelt table, or a key that lacks its table.
+/// The error for an unknown name before any table: a misspelt table, or a key without its table.
 fn unknown_name(file: &str, name: &str, is_table: bool) -> SiteError {
     let at = |table: String, key: &str| FieldLocation::Key { file: file.to_owned(), table, key: key.to_owned() };
     if is_table {
@@ -79,7 +79,7 @@ fn unknown_name(file: &str, name: &str, is_table: bool) -> SiteError {
     SiteError::Unknown { at: at("before any table:".to_owned(), name), nearest: nearest_key(name, "") }
 }
 
-/// The nearest key with its table; of two equally near ones that in `home`.
+/// The nearest key with its table; of two equally near ones, the one in the table `home`.
 fn nearest_key(word: &str, home: &str) -> String {
     let lower = word.to_lowercase();
     let score = |known: &SiteKey| {

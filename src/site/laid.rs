@@ -1,4 +1,4 @@
-//! Points that are laid on components: one in the middle of each piece, or every so many metres along walls.
+//! Lays points on components: one in the middle of each piece, or a row along walls.
 
 use crate::mesh::patches::{MOST_TEXELS, Patch, Patches};
 use crate::mesh::{Component, Mesh, lowest};
@@ -6,17 +6,16 @@ use crate::view::Probe;
 use glam::{DVec3, Vec3};
 use rustc_hash::FxHashSet;
 
-/// How points are laid.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Laying {
-    /// One in the middle of each piece that is connected by edges.
+    /// One in the middle of each piece.
     Pieces,
-    /// On upright faces, so far from each other and so high, metres of the world.
+    /// On upright faces, at this spacing and this height, metres in the world frame.
     Row { spacing: f64, height: f64 },
 }
 
-/// The points of the components that are chosen, hardly more than `most`: each with what may be its outer side, and none
-/// called as a point `beside` them.
+/// Returns the points on the chosen components, at most a few more than `most`. Each comes with the normal of what may
+/// be its outer side, and none has the name of a point in `beside`.
 pub(super) fn lay(mesh: &Mesh, chosen: &[bool], laying: Laying, (most, beside): (usize, &[Probe])) -> Vec<Vec<Probe>> {
     let mut laid: Vec<Vec<Probe>> = Vec::new();
     let named = mesh.components.iter().zip(chosen).filter(|(_, chosen)| **chosen).map(|(component, _)| component);
@@ -48,7 +47,7 @@ pub(super) fn lay(mesh: &Mesh, chosen: &[bool], laying: Laying, (most, beside): 
     laid
 }
 
-/// Points with their sides, called as the component is, and numbered where there are several.
+/// Makes points of sides, named after the component, and numbered if there are several.
 fn named_after(component: &Component, points: Vec<Vec<[DVec3; 2]>>) -> Vec<Vec<Probe>> {
     let count = points.len();
     let of_point = |(index, sides): (usize, Vec<[DVec3; 2]>)| {
@@ -58,7 +57,7 @@ fn named_after(component: &Component, points: Vec<Vec<[DVec3; 2]>>) -> Vec<Vec<P
     points.into_iter().enumerate().map(of_point).collect()
 }
 
-/// Numbers points that are called as others are, or as those beside them.
+/// Numbers points that have the same name as others or as those in `beside`.
 fn tell_apart(laid: &mut [Vec<Probe>], beside: &[Probe]) {
     let mut taken: FxHashSet<String> = beside.iter().map(|probe| probe.name.clone()).collect();
     for sides in laid {
@@ -74,7 +73,7 @@ fn tell_apart(laid: &mut [Vec<Probe>], beside: &[Probe]) {
     }
 }
 
-/// The faces of a component that are connected by edges.
+/// The pieces of a component: faces that are connected by edges.
 fn pieces(mesh: &Mesh, component: &Component) -> Vec<Vec<u32>> {
     let first = component.faces.start;
     let mut above: Vec<u32> = (0..component.faces.len() as u32).collect();
@@ -92,7 +91,7 @@ fn pieces(mesh: &Mesh, component: &Component) -> Vec<Vec<u32>> {
     of_root
 }
 
-/// The middle of a piece's front and of its back, each with its normal; none of a piece without an area.
+/// The middle of a piece's front and of its back, each with its normal; `None` for a piece without area.
 fn sides_of(mesh: &Mesh, faces: &[u32]) -> Option<Vec<[DVec3; 2]>> {
     let corners = |face: &u32| mesh.corners(*face as usize).map(Vec3::as_dvec3);
     let vector = |face: &u32| {
@@ -112,7 +111,7 @@ fn sides_of(mesh: &Mesh, faces: &[u32]) -> Option<Vec<[DVec3; 2]>> {
     Some(vec![[centre + normal * front, normal], [centre + normal * back, -normal]])
 }
 
-/// Points along an upright patch at a height.
+/// Points along an upright patch at a height above the ground.
 fn row(
     mesh: &Mesh,
     patches: &Patches,
@@ -120,14 +119,14 @@ fn row(
     [spacing, height]: [f64; 2],
     most: usize,
 ) -> Vec<Vec<[DVec3; 2]>> {
-    /// What leans by less is upright: the sine of 6°.
+    /// A patch is upright if it leans by less than 6°: this is the sine.
     const UPRIGHT: f64 = 0.1;
     let normal = patch.plane.truncate();
     if normal.z.abs() > UPRIGHT {
         return Vec::new();
     }
     let level = height - mesh.origin.z;
-    // where the faces lie at that height, along the patch
+    // the intervals along the patch in which it has faces at that height
     let mut runs: Vec<[f64; 2]> = Vec::new();
     for face in &patches.faces[patch.faces.start as usize..patch.faces.end as usize] {
         let corners = mesh.corners(*face as usize).map(Vec3::as_dvec3);
@@ -149,7 +148,7 @@ fn row(
             _ => joined.push([from, to]),
         }
     }
-    // the patch's point at that height whose place along it is 0
+    // the patch's point at that height whose position along the patch is 0
     let across = patch.right.cross(normal);
     let foot = -normal * patch.plane.w;
     let foot = foot + across * ((level - foot.z) / across.z) - patch.right * foot.dot(patch.right);

@@ -1,4 +1,4 @@
-//! Which layers of a model are read: the parts that some names mean, as if its file held no others.
+//! Reads only some layers of a model: the parts that have the given names, as if the file contained no others.
 
 use super::error::{FieldLocation, SiteError};
 use super::file::Names;
@@ -7,10 +7,10 @@ use super::overrides::refuse;
 use crate::formats::{LeftOut, Model, PartKind};
 use crate::message::message;
 
-/// Leaves of a model the parts that are meant; `at` is where the names are written.
+/// Removes all other parts from a model; `at` is where the names were given.
 ///
 /// # Errors
-/// A name that no part has, and names that mean none.
+/// A name that no part has, or names that no part remains for.
 pub(super) fn keep(model: &mut Model, names: &Names, at: impl Fn() -> FieldLocation) -> Result<(), SiteError> {
     let of_parts: Vec<ComponentNames> =
         model.parts.iter().map(|part| (part.name.as_str(), part.aliases.as_slice())).collect();
@@ -20,7 +20,10 @@ pub(super) fn keep(model: &mut Model, names: &Names, at: impl Fn() -> FieldLocat
     let chosen = names.chosen_of(&of_parts);
     let kept = chosen.iter().filter(|chosen| **chosen).count();
     if kept == 0 {
-        return Err(refuse(at(), message!["leaves nothing of the model"; "name what is read, or leave the key out"]));
+        return Err(refuse(
+            at(),
+            message!["leaves nothing of the model"; "name what should be read, or leave the key out"],
+        ));
     }
     let left_out = (chosen.len() - kept) as u64;
     if left_out == 0 {
@@ -28,7 +31,7 @@ pub(super) fn keep(model: &mut Model, names: &Names, at: impl Fn() -> FieldLocat
     }
     let kinds: Vec<PartKind> = (0..chosen.len()).map(|part| model.kind(part)).collect();
     let stays = |of: usize| chosen.get(of).copied().unwrap_or_default();
-    // each part's number among those that stay
+    // the index of each part among those that remain
     let number = |next: &mut usize, stays: &bool| {
         let number = *next;
         *next += usize::from(*stays);
@@ -39,7 +42,7 @@ pub(super) fn keep(model: &mut Model, names: &Names, at: impl Fn() -> FieldLocat
     if !model.from_ground.is_empty() {
         let mut of_part = chosen.iter();
         model.from_ground.retain(|_| of_part.next().copied().unwrap_or_default());
-        // none of those that stay may be so
+        // no remaining part may be measured from the ground
         if !model.from_ground.contains(&true) {
             model.from_ground.clear();
         }

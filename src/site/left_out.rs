@@ -19,12 +19,12 @@ impl Models {
         self.by_model().enumerate().map(told).collect()
     }
 
-    /// For each component of one of the models, whether it casts, if `casts` says so.
+    /// Returns for each component of one of the models whether it casts under the value `names` of `casts`.
     pub fn casts_of(&self, model: usize, names: &Names) -> Vec<bool> {
         self.by_model().nth(model).map_or_else(Vec::new, |(read, components)| read.casts(names, components))
     }
 
-    /// Notes on what was left out, and on what does not cast as it lies on the ground; one of each a model.
+    /// Notes on what was left out, and on ground cover that does not cast: at most one of each per model.
     pub(super) fn notes_on_contents(&self, written: &WrittenSite) -> Vec<Message> {
         let mut notes = Vec::new();
         for (index, (read, components)) in self.by_model().enumerate() {
@@ -37,7 +37,7 @@ impl Models {
     }
 }
 
-/// One short note on what was left out of a model: the most frequent, and how many more there are.
+/// A short note on what was left out of a model: the most frequent reason, and the number of other things.
 fn note_left_out(name: &str, left_out: &[LeftOut]) -> Option<Message> {
     let most = left_out.iter().max_by_key(|left| left.count)?;
     let others: u64 = left_out.iter().map(|left| left.count).fold(0_u64, u64::saturating_add) - most.count;
@@ -51,7 +51,7 @@ fn note_left_out(name: &str, left_out: &[LeftOut]) -> Option<Message> {
     Some(message![what; lists])
 }
 
-/// Says which components of a model lie on the ground, and so do not cast where nobody names them.
+/// A note on the components of a model that lie on the ground and so do not cast unless they are named.
 fn note_covers(name: &str, contents: &ReadContents, components: &[Component]) -> Option<Message> {
     let covers = components.iter().zip(contents.covers(components.len())).filter(|(_, covers)| *covers);
     let names: Vec<String> = covers.map(|(component, _)| format!("\"{}\"", component.name)).collect();

@@ -1,7 +1,7 @@
-//! What a model looks like: in millimetres, centimetres or inches, or lying on its side.
+//! Guesses whether a model is in millimetres, centimetres or inches, or lies on its side.
 //!
-//! Many files do not say it: glTF is in metres and y up, STL by custom z up, and many programs export something else.
-//! Only keys that nobody wrote are doubted; whoever writes `scale` or `up` has decided.
+//! Many files do not say so: glTF is in metres and y up, STL is usually z up, and many programs export something else.
+//! Only keys that nobody wrote are doubted: a written `scale` or `up` is a decision.
 
 use crate::formats::{Model, Up};
 use crate::mesh::{Component, Mesh};
@@ -9,12 +9,12 @@ use crate::message::{Field, Message, Piece, message, pieces, set_to};
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
-/// What a model looks like, and which keys would correct it.
+/// What a model looks like, and the keys that would correct it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Likeness {
     /// The index of the model in the site, from 0.
     pub model: usize,
-    /// Keys, of which one would correct it.
+    /// The keys, one of which would correct it.
     pub mends: Vec<Mend>,
 }
 
@@ -36,42 +36,42 @@ impl std::fmt::Display for Mend {
     }
 }
 
-/// No building is higher, metres (Burj Khalifa: 828).
+/// The height of the highest building, rounded up, metres (Burj Khalifa: 828).
 const HIGHEST_M: f64 = 1000.0;
-/// And no mountain.
+/// The height of the highest mountain, rounded up.
 const MOUNTAIN_M: f64 = 9000.0;
-/// Nothing that is as wide as this has its roofs and floors so high on average, metres.
+/// The greatest mean height of the horizontal surfaces of a wide building, metres.
 const MASSIVE_M: f64 = 200.0;
-/// What has no such part of its area in walls is no building but terrain.
+/// The least share of walls in the area of a building; with less, it is terrain.
 const WALLED: f64 = 0.15;
-/// No house is lower or narrower, metres.
+/// The least height or width of a house, metres.
 const LEAST_M: f64 = 2.4;
 
-/// By which part of the area roofs and terrain must look up more than down for that to tell what is up, and how many
-/// times as clearly as the other way.
+/// To tell which way is up, more of the roofs and terrain must face up than down, by this share of the area, and this
+/// many times as clearly as along the other axis.
 const ROOFED: f64 = 0.05;
 const CLEARLY: f64 = 4.0;
-/// How near to 0 a model that stands on the ground begins, as a part of its height; and how near to it the middle of
-/// one is that is drawn around its axis, as a part of its depth.
+/// A model stands on the ground if it begins this close to 0, as a share of its height; it is centred on its axis if
+/// its middle is this close to it, as a share of its depth.
 const ON_THE_GROUND: f64 = 0.02;
 const AROUND_ITS_AXIS: f64 = 0.05;
 
-/// Sine of the angle to level or plumb below which a face is it: 5°.
+/// A face is horizontal or vertical if it is off by less than 5°: this is the sine.
 const PLUMB: f64 = 0.087;
 
-/// The areas of a model's faces, square metres, and a box around them. Axes are the file's own, turned upright: east,
-/// north, up for a file that is y up, which has its z to the south.
+/// The areas of a model's faces, square metres, and its box. Axes are the file's own, turned upright: east, north, up.
+/// A file that is y up has its z to the south.
 #[derive(Clone, Copy, Debug)]
 struct ModelMeasures {
     low: DVec3,
     high: DVec3,
     area: f64,
     walls: f64,
-    /// Of what looks up, with its height, too.
+    /// For faces that look up: their area, and the area times the height.
     upwards: [f64; 2],
-    /// Of slopes that look along north and up, and against them.
+    /// The area of slopes that face north and up, and of those that face the other way.
     sloped: [DVec3; 2],
-    /// The same of what is level, seen along that axis.
+    /// The same for level faces, seen along each axis.
     level: [DVec3; 2],
     faces: usize,
 }
@@ -106,7 +106,7 @@ impl ModelMeasures {
         for axis in [1, 2] {
             let along = normal[axis];
             let side = usize::from(along < 0.0);
-            // level to within 5°, too
+            // level to within 5°, as well
             if along.abs() > (1.0 - PLUMB * PLUMB).sqrt() {
                 self.level[side][axis] += area;
             } else if along.abs() >= PLUMB {
@@ -129,7 +129,7 @@ impl ModelMeasures {
         }
     }
 
-    /// How many metres a unit is instead of one, if it looks so; several where they cannot be told apart.
+    /// The length in metres that a unit seems to have if it is not 1; several lengths if they cannot be told apart.
     fn units(&self) -> Option<&'static [f64]> {
         let size = self.high - self.low;
         let narrow = size.x.min(size.y);
@@ -143,14 +143,14 @@ impl ModelMeasures {
         Some(if in_millimetres >= LEAST_M { &[0.001] } else { &[0.01, 0.0254] })
     }
 
-    /// Whether it lies on its side: the axis that would be up looks level, and the other one looks like up. A file that
-    /// is taken for y up has its z to the south, one that is taken for z up its y to the north.
+    /// Whether it lies on its side: the axis taken as up looks horizontal, and the other one looks like up. A file that
+    /// is taken as y up has its z to the south, one that is taken as z up has its y to the north.
     fn lies(&self, taken: Up) -> bool {
         let (other_up, foot) = match taken {
             Up::Y => (1, self.high.y),
             Up::Z => (0, self.low.y),
         };
-        // by which part of the area more looks one way along an axis than the other
+        // by which share of the area more faces look one way along an axis than the other
         let looks = |axis: usize, up: usize| {
             let more = |areas: [DVec3; 2]| (areas[up][axis] - areas[1 - up][axis]).max(0.0);
             (more(self.sloped) + more(self.level)) / self.area
@@ -163,10 +163,10 @@ impl ModelMeasures {
     }
 }
 
-/// Faces that one task looks at.
+/// The number of faces for one task.
 const AT_ONCE: usize = 1 << 14;
 
-/// Which unit and axis a model stands with, and whether its file or somebody says so.
+/// The unit and axis with which a model stands, and whether its file or the user gave them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TakenFrame {
     pub up: Up,
@@ -175,18 +175,18 @@ pub(super) struct TakenFrame {
 }
 
 impl TakenFrame {
-    /// Of a model as its file says it.
+    /// A model as its file gives it.
     pub(super) fn of_file(model: &Model) -> Self {
         Self { up: model.up, up_is_said: model.up_is_said, unit_is_said: model.unit_m.is_some() }
     }
 
-    /// The same where somebody may have written unit or axis.
+    /// The same if the user gave the unit or the axis.
     pub(super) fn written(self, unit: bool, up: bool) -> Self {
         Self { up_is_said: self.up_is_said || up, unit_is_said: self.unit_is_said || unit, ..self }
     }
 }
 
-/// Looks at a model: its components, and how it was turned and moved; only at what nobody said.
+/// Examines a model: its components, and how it was turned and moved. Only what nobody gave is doubted.
 pub(super) fn of(
     mesh: &Mesh,
     components: &[Component],
@@ -208,7 +208,7 @@ pub(super) fn of(
         }
         measured
     };
-    // what is added up side by side is added in order, so that it comes out the same every time
+    // parallel sums are added in order, so that the result is always the same
     let measure = |only_home: bool| {
         components.iter().fold(ModelMeasures::NOTHING, |sum, component| {
             let faces = &mesh.faces[component.faces.start as usize..component.faces.end as usize];
@@ -240,7 +240,7 @@ pub(super) fn of(
     mends
 }
 
-/// The notes on what a model looks like, each a sentence without its stop.
+/// The notes on what a model looks like.
 pub(super) fn notes(model: &str, mends: &[Mend]) -> Vec<Message> {
     let scales: Vec<f64> =
         mends.iter().filter_map(|mend| if let Mend::Scale(scale) = mend { Some(*scale) } else { None }).collect();
@@ -263,7 +263,7 @@ pub(super) fn notes(model: &str, mends: &[Mend]) -> Vec<Message> {
     for mend in mends {
         let Mend::Up(up) = mend else { continue };
         notes.push(message![
-            format!("{model} looks as if it lay on its side, its {up} being up");
+            format!("{model} looks as if it lies on its side, with its {up} up");
             "if it does, write ",
             set_to("[[model]]", "up", up.word().to_owned(), format!("`{mend}` under [[model]]")),
             Piece::Where(Field::Up, pieces![", or say ", (Field::Up, up.word())])

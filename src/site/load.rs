@@ -1,4 +1,4 @@
-//! The request as written → the request as meant.
+//! Turns the request as written into the checked request.
 
 use super::contents::ModelContents;
 use super::error::{FieldLocation, SiteError};
@@ -17,24 +17,24 @@ use crate::sun::{Place, SunTrack};
 use glam::DVec3;
 use std::path::Path;
 
-/// A shadow that is longer than this, in heights, does not make the default region larger:
-/// 4.3 is the length at an altitude of 13°.
+/// A shadow longer than this many times the height does not enlarge the default region further. 4.3 is the ratio at an
+/// altitude of 13°.
 pub(super) const SHADOW_CUT: f64 = 4.3;
-/// As [`SHADOW_CUT`], for what the default camera must see.
+/// As [`SHADOW_CUT`], for what must be in the default camera's view.
 pub(super) const VIEW_CUT: f64 = 1.5;
 
-/// A place and its sun, without what stands there.
+/// A place and its sun, without models.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoadedSun {
     /// Where on Earth.
     pub place: Place,
-    /// The instants asked.
+    /// The requested instants.
     pub track: SunTrack,
-    /// Where the place is from, where a model's file says it.
+    /// Notes on where the place comes from, if a model's file gave it.
     pub notes: Vec<Message>,
 }
 
-/// The place and its sun alone; the models are read only where nobody else says the place, or its elevation.
+/// Loads only the place and its sun. Models are read only if nothing else gives the place or its elevation.
 ///
 /// # Errors
 /// Everything that can be wrong with a site file's form, its place and its study.
@@ -53,7 +53,8 @@ pub fn load_sun(path: &Path, asked: &Overrides) -> Result<LoadedSun, SiteError> 
     Ok(LoadedSun { place, track, notes })
 }
 
-/// The elevation of a place that is written without one, as a study of the same site finds it, with what is said of that.
+/// The elevation of a place that is written without one, as a study of the same site would find it, and a note about
+/// it.
 fn elevation(
     written: &WrittenSite,
     read_model: impl Fn(&Path, &ReadOptions) -> Result<Model, ModelError>,
@@ -68,10 +69,10 @@ fn elevation(
             (Some(of.height_m), Some(note))
         })),
         Err(SiteError::Model(error)) if error.is_given_up() => Err(SiteError::Model(error)),
-        // the sun needs no model, and half a kilometre of elevation is no thousandth of a degree by day
+        // the sun needs no model, and half a kilometre of elevation changes its direction by less than 0.001° by day
         Err(error) => {
             let mut note = message![
-                "the elevation of the place is taken as 0, since a model that may say it cannot be read: ";
+                "the elevation of the place is taken as 0, since a model that may give it cannot be read: ";
                 "write ", set_to("[place]", "elevation", "35.0".to_owned(), "`elevation` in [place]".to_owned())
             ];
             note.what.extend(error.message().what);
@@ -80,32 +81,32 @@ fn elevation(
     }
 }
 
-/// Whose coordinates a mesh has.
+/// The coordinates that a mesh is in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CoordinateFrame {
-    /// East, north, up from the place's point: models as a site places them.
+    /// East, north and up from the place's point, with the models as a site places them.
     Place,
     /// A model file's own axes, turned z up.
     Model,
 }
 
-/// Models alone, without place and study.
+/// Models without a place and a study.
 #[derive(Clone, Debug)]
 pub struct LoadedMesh {
     /// All of them, welded.
     pub mesh: Mesh,
-    /// Whose coordinates that has.
+    /// The coordinates that the mesh is in.
     pub frame: CoordinateFrame,
-    /// What the user should know of how they were read, as [`Site::notes`].
+    /// Notes on how the models were read, as in [`Site::notes`].
     pub notes: Vec<Message>,
-    /// What each file holds.
+    /// The contents of each file.
     pub models: Vec<ModelContents>,
-    /// What is said of the coordinates of each.
+    /// What is known about the coordinates of each.
     pub references: Vec<ModelReference>,
 }
 
-/// The models alone: of a model file as it is, or of a site's models where they stand; [`Overrides::up`] goes before
-/// what a site says. Place and study may be absent.
+/// Loads only the models: a model file as it is, or a site's models where they stand. [`Overrides::up`] has priority
+/// over the site file. Place and study may be absent.
 ///
 /// # Errors
 /// Everything that can be wrong with a site file's form and its models.
@@ -116,7 +117,7 @@ pub fn load_mesh(path: &Path, asked: &Overrides) -> Result<LoadedMesh, SiteError
     let is_bare = written.is_bare_model();
     let models = Models::read(&written, |path, options| asked.reading.read(path, options))?;
     let [casts, _] = models.roles(&written)?;
-    // what was left out is listed
+    // what was left out is listed separately
     let mut notes = models.notes_without_contents(&written, &casts);
     models.proposed_place().iter().for_each(|place| written.site.place.get_or_insert_default().complete_with(place));
     notes.splice(..0, written.place_note());
@@ -126,16 +127,16 @@ pub fn load_mesh(path: &Path, asked: &Overrides) -> Result<LoadedMesh, SiteError
 }
 
 impl Site {
-    /// Reads and checks a request: `path` is a site file, a folder that holds a `site.toml`,
-    /// or a model file, which says its place, or together with `asked.place`.
+    /// Reads and checks a request. `path` is a site file, a folder that contains a `site.toml`, or a model file, whose
+    /// place is in the file or in `asked.place`.
     ///
     /// # Errors
-    /// Everything that can be wrong with it, each naming the file, the key or option, and a hint.
+    /// Anything wrong with it. Each error names the file and the key or option, and has a hint.
     pub fn load(path: &Path, asked: &Overrides) -> Result<Site, SiteError> {
         Self::load_with(path, asked, |path, options| asked.reading.read(path, options))
     }
 
-    /// As [`Site::load`], with another reader of model files.
+    /// As [`Site::load`], with a different reader of model files.
     ///
     /// # Errors
     /// As [`Site::load`].
@@ -148,7 +149,7 @@ impl Site {
         Self::of(&WrittenSite::read(path, asked)?, asked, read_model)
     }
 
-    /// As [`Site::load_with`], of a request that is in memory.
+    /// As [`Site::load_with`], for a request in memory.
     ///
     /// # Errors
     /// As [`Site::load`].
@@ -174,7 +175,7 @@ impl Site {
         let (written, models) = written.located(models)?;
         let written = &*written;
         let mut place = written.place(asked)?;
-        // Cheap and quick to fail; models come last.
+        // Quick checks first; models come last.
         let mut track = study::track(&place, written, asked)?;
         let method = method(written, asked)?;
         check_settings(asked)?;
@@ -222,19 +223,19 @@ impl Site {
     }
 }
 
-/// Returns an error if an option has no use, or no value that can be taken.
+/// Refuses options that have no effect, and values that cannot be used.
 fn check_settings(asked: &Overrides) -> Result<(), SiteError> {
     if asked.hextree_depth.is_some() && asked.silhouette != Some(Finder::Hextree) {
         let message = message![
             "only the paper's hextree has a depth";
-            "say ", (Field::Silhouette, "hextree"), " with it, or leave it out"
+            "set ", (Field::Silhouette, "hextree"), " as well, or leave it out"
         ];
         return Err(refuse(FieldLocation::Field(Field::HextreeDepth), message));
     }
-    // a NaN is not above zero either
+    // true for NaN
     if let Some(width) = asked.settings.smoothie_width_m.filter(|width| !(width.is_finite() && *width > 0.0)) {
         let message = message![
-            format!("{width} is no width");
+            format!("{width} is not the width of a smoothie");
             "write metres above 0, for example ", (Field::SmoothieWidth, "0.5")
         ];
         return Err(refuse(FieldLocation::Field(Field::SmoothieWidth), message));
@@ -252,7 +253,7 @@ fn method(written: &WrittenSite, asked: &Overrides) -> Result<Method, SiteError>
     }
 }
 
-/// Metres of a texel on patches.
+/// The side of a texel on patches, metres.
 fn patch_cell(receivers: Receivers, asked: &Overrides) -> Result<f64, SiteError> {
     let at = FieldLocation::Field(Field::PatchCell);
     match asked.patch_cell {
@@ -260,13 +261,13 @@ fn patch_cell(receivers: Receivers, asked: &Overrides) -> Result<f64, SiteError>
         Some(_) if receivers != Receivers::Patches => {
             let message = message![
                 "only surfaces have such cells";
-                "say ", (Field::Receivers, "surfaces"), " with it, or leave it out"
+                "set ", (Field::Receivers, "surfaces"), " as well, or leave it out"
             ];
             Err(refuse(at, message))
         }
         Some(cell) if cell.is_finite() && cell > 0.0 => Ok(cell),
         Some(cell) => {
-            let what = format!("{cell} is no cell");
+            let what = format!("{cell} is not the side of a cell");
             Err(refuse(at, message![what; "write metres above 0, for example ", (Field::PatchCell, "0.25")]))
         }
     }

@@ -1,4 +1,4 @@
-//! A request with a place, which a model's file may propose.
+//! A request that has a place, perhaps from a model's file.
 
 use super::Models;
 use super::error::SiteError;
@@ -6,14 +6,15 @@ use super::written::WrittenSite;
 use crate::message::Message;
 use std::borrow::Cow;
 
-/// Models that are read where they are asked for.
+/// Models that are read only when they are needed.
 pub(super) type LazyModels<'a> = Box<dyn FnOnce() -> Result<Models, SiteError> + 'a>;
 
 impl WrittenSite {
-    /// The request with a place: its own, or that which a model's file proposes, for which the models are read first.
+    /// Returns the request with a place: its own, or the one that a model's file proposes. To find that, the models are
+    /// read first.
     ///
     /// # Errors
-    /// Everything that can be wrong with the models, and that nobody says a place.
+    /// Anything wrong with the models, or that nothing gives a place.
     pub(super) fn located<'a>(
         &'a self,
         models: impl FnOnce() -> Result<Models, SiteError> + 'a,
@@ -34,7 +35,7 @@ impl WrittenSite {
         Ok((Cow::Owned(written), Box::new(move || Ok(models))))
     }
 
-    /// That nobody says a place; and what files say of one that is none.
+    /// The error that nothing gives a place. It says what files gave that is not a place.
     fn no_place(&self, said: &[Message]) -> SiteError {
         if self.is_bare_model() {
             let said = said.first().cloned().map(Box::new);

@@ -1,6 +1,6 @@
 //! The request: the site file and the models that it names, checked once.
 //!
-//! [`Site`] is the checked request. After it nothing is optional, relative to a file, or unchecked.
+//! [`Site`] is the checked request: in it nothing is optional, relative to a file, or unchecked.
 
 mod anchored_zero;
 mod asked_value;
@@ -94,12 +94,11 @@ pub struct Site {
     pub place: Place,
     /// All models, welded, in the world frame.
     pub mesh: Mesh,
-    /// What the user should know of how the models were read, and of the clock: sentences without their full stop, of
-    /// which those on models name the model.
+    /// Notes on how the models were read, and on the clock: sentences without a full stop. Those about a model name it.
     pub notes: Vec<Message>,
     /// The face's words for the fields of a request, for notes that go into files.
     pub words: &'static dyn Words,
-    /// Models that look as if they had another unit or upward axis, with the keys that would correct them.
+    /// Models that look as if they had a different unit or up axis, with the keys that would correct them.
     pub likenesses: Vec<Likeness>,
     /// For each component, whether it casts.
     pub casts: Vec<bool>,
@@ -132,8 +131,8 @@ pub struct Site {
 }
 
 impl Site {
-    /// For each component, whether it is judged, besides the ground's plane; under [`Receivers::Ground`] that is
-    /// terrain alone.
+    /// Returns for each component whether it is judged; the ground's plane is judged besides. Under
+    /// [`Receivers::Ground`] only terrain is.
     pub fn judges(&self, receivers: Receivers) -> Vec<bool> {
         match (receivers, self.ground.kind) {
             (Receivers::Top | Receivers::Patches, _) => self.receives.clone(),

@@ -4,7 +4,7 @@ use crate::formats::Model;
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// A box around what is made of a model's corners; none where there are none.
+/// The box around the images of a model's corners under `of`; `None` without corners.
 pub(super) fn bounds(model: &Model, of: impl Fn(DVec3) -> DVec3 + Sync) -> Option<[DVec3; 2]> {
     let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
     let wider = |[low, high]: [DVec3; 2], corner: &DVec3| {

@@ -1,4 +1,4 @@
-//! The place that models' files propose, and what `gnomon check` says of each.
+//! The place that models' files propose, and what `gnomon check` reports about each.
 
 use super::anchored_zero::true_north;
 use super::error::SiteError;
@@ -17,49 +17,49 @@ use crate::message::{Field, Message, Piece, message, pieces, set_to, setting};
 use glam::DVec3;
 use std::path::Path;
 
-/// What a model's file, and the site file, say of its coordinates.
+/// What a model's file and the site file say about its coordinates.
 #[derive(Clone, Debug)]
 pub struct ModelReference {
-    /// As the site file names it.
+    /// The file as the site file names it.
     pub name: String,
-    /// Metres a unit, and whether somebody says so.
+    /// The length of a unit, metres.
     pub unit_m: f64,
-    /// Whether the file or the site file says the unit.
+    /// Whether the file or the site file gives the unit.
     pub unit_is_said: bool,
-    /// The axis that is up.
+    /// The up axis.
     pub up: Up,
-    /// Whether the file, its format or the site file says the axis.
+    /// Whether the file, its format or the site file gives the axis.
     pub up_is_said: bool,
-    /// The reference system of its coordinates, or of the anchor by which it is said to stand.
+    /// The reference system of its coordinates, or of the anchor that places it.
     pub crs: Option<String>,
-    /// Who says so: the file in its own term, or `crs`.
+    /// The source of that: the file's own term, or `crs`.
     pub said_by: Option<String>,
-    /// Where that has its zero, or its middle where its coordinates are of a map.
+    /// Where the source puts its origin, or its middle if its coordinates are in a map.
     pub said: Option<EarthPoint>,
-    /// Where these stand; none where nobody knows a place.
+    /// Where that stands in the site; `None` without a place.
     pub stands: Option<EarthPoint>,
-    /// What says that: as `said_by`, where it stands as it is said, else `position` or the site's place.
+    /// What determines that: `said_by` if it stands where that says, otherwise `position` or the site's place.
     pub stands_by: String,
-    /// All that its file says.
+    /// Everything that its file says.
     pub anchors: Vec<Anchor>,
-    /// Degrees clockwise from its north to true north at the place: by this it is turned.
+    /// The angle by which it is turned: degrees clockwise from its north to true north at the place.
     pub north_deg: f64,
-    /// Degrees clockwise from true north at the place to true north where it stands; none where both are one.
+    /// Degrees clockwise from true north at the place to true north where the model stands; `None` if they are equal.
     pub meridian_deg: Option<f64>,
-    /// Degrees clockwise from true north to the map's, there.
+    /// Degrees clockwise from true north to the map's north, where the model stands.
     pub convergence_deg: Option<f64>,
-    /// How its map's datum is shifted to WGS 84; none where it stands on no map.
+    /// How its map's datum is shifted to WGS 84; `None` if it is not in a map.
     pub(super) shift: Option<String>,
-    /// Its map, and its point there.
+    /// Its map, and its point in it.
     on_map: Option<(Crs, DVec3)>,
 }
 
 /// A point of the Earth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EarthPoint {
-    /// Longitude, latitude, height above the sea.
+    /// Longitude, latitude, and height above the sea.
     pub at: GeodeticPoint,
-    /// Whether somebody says the height.
+    /// Whether the height is given.
     pub has_height: bool,
 }
 
@@ -79,7 +79,7 @@ impl ModelReference {
             Reference::Map { .. } => convergence.map(|convergence| -convergence),
             Reference::Anchor(zero) => true_north(zero),
         };
-        // of what is drawn in a map's coordinates the unit is that on the ground
+        // the unit of what is drawn in a map's coordinates is the horizontal one
         let unit_m = match &said.reference {
             Reference::Map { crs, unit_m, .. } if crs.kind() != CrsKind::Geographic => *unit_m,
             _ => placement.unit_m(model),
@@ -99,7 +99,7 @@ impl ModelReference {
             stands: None,
             stands_by: String::new(),
             anchors: model.anchors.clone(),
-            // −0 is 0
+            // turns −0 into 0
             north_deg: north_rad.to_degrees() + 0.0,
             convergence_deg: convergence.map(f64::to_degrees),
             meridian_deg: None,
@@ -120,7 +120,7 @@ impl ModelReference {
         let said = self.said.filter(|_| stands.is_where_said).map(|said| {
             match said.has_height || stands.model.stands_on_ground() {
                 true => said,
-                // without a height it stands as high as the place
+                // without a height it stands at the place's elevation
                 false => EarthPoint {
                     at: GeodeticPoint { height_m: elevation_m, ..said.at },
                     has_height: frame.has_elevation,
@@ -144,53 +144,53 @@ impl ModelReference {
     }
 }
 
-/// That models are on maps of two datums, which are matched by a few parameters alone.
+/// A note if models are in maps of two datums that are related only by a transformation of a few parameters.
 pub(super) fn of_shifts(models: &[ModelReference]) -> Option<Message> {
     let on_maps = || models.iter().filter_map(|model| Some((model, model.shift.as_deref()?, model.crs.as_deref()?)));
     let (one, shift, crs) = on_maps().next()?;
     let (other, _, other_crs) = on_maps().find(|(_, other, _)| *other != shift)?;
     let what = format!(
-        "{} is in {crs}, and {} in {other_crs}: their datums differ, and are matched by a few parameters, which hold to some \
+        "{} is in {crs}, and {} in {other_crs}: their datums differ, and are related by a few parameters, which hold to some \
          metres",
         one.name, other.name
     );
     Some(message![what; "export both in one system to have them meet to the centimetre"])
 }
 
-/// A model, as the site file names it, and what is said of it.
+/// A model, its name in the site file, and what is said about its place.
 pub(super) type SaidModel<'a> = (&'a str, &'a Model, &'a Placement, &'a Georeference);
 
-/// Where the models stand.
+/// The frame in which the models stand.
 #[derive(Default)]
 pub(super) struct ModelsFrame {
-    /// None where nobody says a place.
+    /// `None` if nothing gives a place.
     pub(super) frame: Option<SiteFrame>,
-    /// The place, where a file says it.
+    /// The place, if a file gives it.
     pub(super) proposed: Option<PlaceTable>,
-    /// The place's elevation, where the site file says the place without one.
+    /// The place's elevation, if a file gives it and the site file does not.
     pub(super) elevation: Option<ModelElevation>,
 }
 
-/// The place's elevation, as a model's file says it.
+/// The place's elevation as a model's file gives it.
 #[derive(Clone, Debug)]
 pub(super) struct ModelElevation {
-    /// Which of the models, from 0.
+    /// The index of the model, from 0.
     pub(super) model: usize,
-    /// The file, and what in it.
+    /// The file and the item in it.
     said_by: String,
     pub(super) height_m: f64,
 }
 
 impl ModelElevation {
-    /// As a place says it.
+    /// As the table of a place.
     pub(super) fn proposed(&self) -> PlaceTable {
         let source = ElevationSource { said: self.said_by.clone(), elevation: self.height_m };
         PlaceTable { elevation: Some(self.height_m), elevation_source: Some(source), ..PlaceTable::default() }
     }
 }
 
-/// The frame around a place that the site file says. Where it says no elevation, that of the first model is, whose file says
-/// one and that stands nearby: the models stand at 0, as those do whose files say none.
+/// The frame around a place that the site file gives. If that has no elevation, it is taken from the first model whose
+/// file gives one and that stands nearby. The models then stand at height 0, as do those whose files give no elevation.
 fn written_frame<'a>(
     table: &PlaceTable,
     [latitude_deg, longitude_deg]: [f64; 2],
@@ -211,20 +211,20 @@ fn written_frame<'a>(
     ModelsFrame { frame, proposed: None, elevation }
 }
 
-/// That a model's file says the place's elevation, with the model for its subject.
+/// A note that a model's file gave the place's elevation, with the model as the subject.
 pub(super) fn elevation_note(height_m: f64) -> Message {
     let key = set_to("[place]", "elevation", height_m.to_string(), "`elevation`".to_owned());
     message![
-        format!("says the elevation of the place, {}, as nobody wrote one", metres(height_m));
+        format!("gives the elevation of the place, {}, since the site has none", metres(height_m));
         key, " in [place] changes it"
     ]
 }
 
-/// The place of the models: the site file's, else the first that a file proposes; one that is a program's own only where
-/// there is no other. What else the site file says of the place goes before the file.
+/// The place of the models: the site file's, otherwise the first that a file proposes. A program's default place is
+/// used only if there is no other. Other keys under `[place]` have priority over the file.
 ///
 /// # Errors
-/// A latitude without a longitude, and the other way round.
+/// A latitude without a longitude, or a longitude without a latitude.
 pub(super) fn frame<'a>(
     written: &WrittenSite,
     models: impl Iterator<Item = SaidModel<'a>>,
@@ -240,7 +240,7 @@ pub(super) fn frame<'a>(
     };
     let sure = proposed.iter().find(is_sure).or(proposed.first());
     let Some((ProposedPoint { at, has_elevation }, name, said)) = sure else { return Ok(ModelsFrame::default()) };
-    // where the first says no elevation, another may
+    // if the first has no elevation, another file may have one
     let with_elevation =
         || proposed.iter().find(|(point, ..)| point.has_elevation).map(|(point, ..)| point.at.height_m);
     let of_files = || has_elevation.then_some(at.height_m).or_else(with_elevation);
@@ -273,7 +273,7 @@ impl WrittenSite {
         self.text.is_empty() && !self.site.model.is_empty()
     }
 
-    /// That its place is a file's, where nobody has changed it since; a sentence without its stop.
+    /// A note that its place comes from a file, unless it was changed since.
     pub(super) fn place_note(&self) -> Option<Message> {
         let table = self.site.place.as_ref()?;
         let said = table.said_by()?;
@@ -292,11 +292,11 @@ impl WrittenSite {
         ])
     }
 
-    /// Why one of the models cannot stand where it is said.
+    /// The error for a model that cannot stand where it is said to stand.
     pub(super) fn model_fault(&self, index: usize, fault: StandFault) -> SiteError {
         match fault {
             StandFault::Key(key, message) if !self.is_bare_model() => refuse(self.model_key(index, key), message),
-            // without a site file there is no key, and the model is at fault
+            // without a site file there is no key, so the model is at fault
             StandFault::Key(_, message) | StandFault::File(message) => {
                 let path = self.site.model.get(index).and_then(|table| table.path.as_deref()).unwrap_or_default();
                 ModelError { file: self.folder.join(path), fault: message.into() }.into()
@@ -306,7 +306,7 @@ impl WrittenSite {
 }
 
 impl PlaceTable {
-    /// Takes from another what it does not say itself: a point with its clock, and an elevation.
+    /// Takes from another table what this one lacks: a point with its time zone, and an elevation.
     pub fn complete_with(&mut self, other: &PlaceTable) {
         if self.latitude.is_none() && self.longitude.is_none() {
             (self.latitude, self.longitude) = (other.latitude, other.longitude);
@@ -319,13 +319,13 @@ impl PlaceTable {
         }
     }
 
-    /// Which file said the elevation alone, where it is still what that says.
+    /// The file that gave only the elevation, if the elevation is still that value.
     pub fn elevation_said_by(&self) -> Option<&str> {
         let source = self.elevation_source.as_ref()?;
         (self.elevation == Some(source.elevation)).then_some(source.said.as_str())
     }
 
-    /// Which file said it, and by what, where it is still what that says.
+    /// The file that gave the place, and the item in it, if the place is still that.
     pub fn said_by(&self) -> Option<&str> {
         let source = self.source.as_ref()?;
         let is_its = self.latitude == Some(source.at[0]) && self.longitude == Some(source.at[1]);
@@ -333,7 +333,7 @@ impl PlaceTable {
     }
 }
 
-/// The point of an anchor, in words: `EPSG:25832 458874.49, 5438769.71`.
+/// An anchor's point in words: `EPSG:25832 458874.49, 5438769.71`.
 pub fn anchor_text(at: &AnchorPoint) -> String {
     match at {
         AnchorPoint::Nowhere => String::new(),

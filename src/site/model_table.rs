@@ -1,4 +1,4 @@
-//! What a table `[[model]]` says, checked.
+//! Checks a table `[[model]]`.
 
 use super::SiteError;
 use super::file::Names;
@@ -12,7 +12,7 @@ use crate::message::{Message, message};
 use glam::DVec3;
 use std::path::PathBuf;
 
-/// Where one of the models lies, how it is read and where it stands.
+/// Returns the path of one of the models, and how it is read and placed.
 pub(super) fn placed(written: &WrittenSite, index: usize) -> Result<(PathBuf, Placement), SiteError> {
     let table = &written.site.model[index];
     let wrong = |key: &str, message: Message| refuse(written.model_key(index, key), message);
@@ -21,17 +21,17 @@ pub(super) fn placed(written: &WrittenSite, index: usize) -> Result<(PathBuf, Pl
         return Err(written.missing(format!("path in {model}"), keys::example("model", "path")));
     };
     if let Some(north_deg) = table.north.filter(|north| !north.is_finite()) {
-        return Err(wrong("north", message![format!("{north_deg} is no angle"); "write degrees, for example 0.0"]));
+        return Err(wrong("north", message![format!("{north_deg} is not an angle"); "write degrees, for example 0.0"]));
     }
     let position = table.position.map(DVec3::from_array);
     if let Some(position) = position.filter(|position| !position.is_finite()) {
-        let message = message![format!("{position} is no point"); "write metres, for example [0.0, 0.0, 0.0]"];
+        let message = message![format!("{position} is not a point"); "write metres, for example [0.0, 0.0, 0.0]"];
         return Err(wrong("position", message));
     }
     let above_zero = |key: &str, value: Option<f64>, what: &str, hint: &'static str| match value {
-        // a NaN is not above zero either
+        // true for NaN
         Some(value) if !(value.is_finite() && value > 0.0) => {
-            Err(wrong(key, message![format!("{value} is no {what}"); hint]))
+            Err(wrong(key, message![format!("{value} is not a {what}"); hint]))
         }
         value => Ok(value),
     };
@@ -60,12 +60,12 @@ pub(super) fn placed(written: &WrittenSite, index: usize) -> Result<(PathBuf, Pl
     Ok((written.folder.join(path), placement))
 }
 
-/// The classes of points that are asked.
+/// Checks the requested classes of points.
 fn classes(asked: Option<&[String]>, wrong: impl Fn(&str, Message) -> SiteError) -> Result<Vec<String>, SiteError> {
     let asked = asked.unwrap_or_default();
     match asked.iter().find(|class| !POINT_CLASSES.contains(&class.as_str())) {
         Some(class) => {
-            let what = format!("\"{class}\" is no class of points");
+            let what = format!("\"{class}\" is not a class of points");
             Err(wrong("classes", message![what; format!("write some of {}", POINT_CLASSES.join(", "))]))
         }
         None => Ok(asked.to_vec()),

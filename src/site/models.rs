@@ -1,4 +1,4 @@
-//! The models of a site where they stand, and which of their components are chosen.
+//! The models of a site where they stand, and which of their components are selected.
 
 use super::contents::ReadContents;
 use super::error::SiteError;
@@ -28,44 +28,44 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-/// The models, joined to one mesh, whatever is asked of them. A copy shares all that is large.
+/// All models, joined to one mesh. They do not depend on what is asked of them. Clones share the large data.
 #[derive(Clone, Debug)]
 pub struct Models {
     pub(super) mesh: Mesh,
     pub(super) bounds: Bounds,
-    /// What the user should know of how they were read, each a sentence without its stop that names the model.
+    /// Notes on how they were read, each a sentence without a full stop that names the model.
     notes: Vec<Message>,
     /// What they look like.
     pub(super) likenesses: Vec<Likeness>,
-    /// Which components are whose.
+    /// The range of components of each model.
     of_model: Vec<Range<usize>>,
-    /// What each component is, as its file says it.
+    /// The kind of each component, by its file.
     kinds: Vec<PartKind>,
     /// How the buildings of each model stand on the terrain.
     standing: Vec<Message>,
-    /// What else each model holds.
+    /// What else each model contains.
     contents: Vec<ReadContents>,
-    /// Each model's materials that light passes; its parts are counted among its own.
+    /// The see-through materials of each model; their part numbers are relative to the model.
     see_through: Vec<Vec<SeeThrough>>,
     sources: Vec<Source>,
     mark: u64,
-    /// The place around which they stand, where one of them stands by the Earth.
+    /// The place around which they stand, if one of them is placed on Earth.
     place: Option<[Option<f64>; 3]>,
-    /// The numbers of the place as they were written then.
+    /// The place's numbers as written when the models were read.
     written_place: [Option<f64>; 3],
     proposed: Option<PlaceTable>,
-    /// The place's elevation, where a model's file says it in place of the site file.
+    /// The place's elevation, if a model's file gives it and the site file does not.
     pub(super) elevation_m: Option<f64>,
     place_notes: Vec<Message>,
     references: Vec<ModelReference>,
 }
 
-/// What of a place decides where models stand.
+/// The numbers of a place that determine where models stand.
 fn numbers(table: &PlaceTable) -> [Option<f64>; 3] {
     [table.latitude, table.longitude, table.elevation]
 }
 
-/// Those of the place as it is written, and with what files propose of it.
+/// The numbers of the place as written, and with what files propose.
 fn places(written: &WrittenSite, proposed: Option<&PlaceTable>) -> [[Option<f64>; 3]; 2] {
     let table = written.site.place.clone().unwrap_or_default();
     let mut whole = table.clone();
@@ -73,17 +73,17 @@ fn places(written: &WrittenSite, proposed: Option<&PlaceTable>) -> [[Option<f64>
     [numbers(&table), numbers(&whole)]
 }
 
-/// Where a model comes from, and where it stands.
+/// The file a model comes from, and where it stands.
 #[derive(Clone, Debug, PartialEq)]
 struct Source {
     file: PathBuf,
     placement: Placement,
-    /// When the file was changed last, and its bytes; none where the system does not tell.
+    /// When the file was last changed, and its length; `None` if the system does not tell.
     stamp: Option<(SystemTime, u64)>,
 }
 
 impl Models {
-    /// Reads all of them; there must be a triangle.
+    /// Reads all models. At least one must have a triangle.
     ///
     /// # Errors
     /// Everything that can be wrong with a site file's models.
@@ -94,14 +94,14 @@ impl Models {
         if written.site.model.is_empty() {
             return Err(written.missing("[[model]]", "[[model]] with path = \"tower.glb\""));
         }
-        // a file that changes while it is read has changed since
+        // taken first, so that a change while reading is noticed
         let sources = sources(written)?;
         let PlacedModels { models: mut placed, proposed, elevation, place_notes, references } =
             read_placed(written, &read_model)?;
         on_terrain::settle(&mut placed);
         let is_on_earth = placed.iter().any(|placed| placed.is_on_earth);
         let (mut parts, mut models, mut notes, mut see_through) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        // by each model's file, of unit and axis; and how it was turned and moved
+        // for each model: unit and axis by its file, and how it was turned and moved
         let (mut said, mut contents, mut kinds) = (Vec::new(), Vec::new(), Vec::new());
         for (index, placed) in placed.into_iter().enumerate() {
             let model = placed.model;
@@ -147,7 +147,7 @@ impl Models {
         models.with_terrain(written)
     }
 
-    /// The same with what is terrain marked as a request says it, or else the files; and how the buildings stand on it.
+    /// Marks the terrain as the request says, otherwise as the files say, and notes how the buildings stand on it.
     ///
     /// # Errors
     /// [`SiteError::UnknownName`].
@@ -160,7 +160,7 @@ impl Models {
             }
         }
         let components = &mut self.mesh.components;
-        // as they were when the buildings were looked at
+        // nothing to do if the terrain is the same as when the buildings were examined
         if components.iter().zip(&is_terrain).all(|(component, is_terrain)| component.is_terrain == *is_terrain) {
             return Ok(self);
         }
@@ -176,66 +176,66 @@ impl Models {
         Ok(self)
     }
 
-    /// Whether these are the models that a request asks for, standing where it says; as they were when they were read.
+    /// Whether these are the models that a request asks for, where it places them, and their files are unchanged.
     pub fn are_those_of(&self, written: &WrittenSite) -> bool {
         let is_it = |(index, source): (usize, &Source)| {
             placed(written, index).is_ok_and(|(file, placement)| file == source.file && placement == source.placement)
         };
-        // what stands by the Earth stands elsewhere around another place
+        // a model placed on Earth moves if the place changes
         let place = written.site.place.as_ref().map(numbers).unwrap_or_default();
         let is_there = self.place.is_none_or(|here| place == here || place == self.written_place);
         is_there && written.site.model.len() == self.sources.len() && self.sources.iter().enumerate().all(is_it)
     }
 
-    /// Whether one of them stands by what is said of the Earth.
+    /// Whether one of them is placed on Earth.
     pub(super) fn stand_on_earth(&self) -> bool {
         self.place.is_some()
     }
 
-    /// What a model's file proposes of the place that the site file does not say.
+    /// The parts of the place that a model's file proposes because the site file lacks them.
     pub fn proposed_place(&self) -> Option<&PlaceTable> {
         self.proposed.as_ref()
     }
 
-    /// What is said of places that are none, where that leaves the site without one.
+    /// Notes on places in files that are not places, if the site is left without one.
     pub(super) fn place_notes(&self) -> &[Message] {
         &self.place_notes
     }
 
-    /// What each model's file, and the site file, say of its coordinates.
+    /// What each model's file and the site file say about its coordinates.
     pub fn references(&self) -> &[ModelReference] {
         &self.references
     }
 
-    /// The first of the files that is no more what was read. A file that a `.gltf` names is not asked.
+    /// Returns the first file that has changed since it was read. Files that a `.gltf` refers to are not checked.
     pub fn changed_file(&self) -> Option<&Path> {
         let changed = self.sources.iter().find(|source| source.stamp != stamp(&source.file));
         changed.map(|source| source.file.as_path())
     }
 
-    /// A number of all that stands there: other triangles, or other names, have another one.
+    /// A hash of all models: it changes with their triangles or names.
     pub fn mark(&self) -> u64 {
         self.mark
     }
 
-    /// Whether the ground that is found under them, as a request says what they are, is this one, metres.
+    /// Whether the ground found under them for a request has this level, metres.
     pub fn stand_on(&self, written: &WrittenSite, level: f64) -> bool {
         let roles = self.roles(written);
         roles.is_ok_and(|[_, receives]| Ground::of(&self.mesh, self.bounds, &receives, None).is_at(level))
     }
 
-    /// How many components each model has.
+    /// The number of components of each model.
     pub fn component_counts(&self) -> Vec<usize> {
         self.of_model.iter().map(Range::len).collect()
     }
 
-    /// What was read of each model, and its components.
+    /// What was read of each model, with its components.
     pub(super) fn by_model(&self) -> impl Iterator<Item = (&ReadContents, &[Component])> {
         let of_model = self.of_model.iter().map(|range| &self.mesh.components[range.clone()]);
         self.contents.iter().zip(of_model)
     }
 
-    /// Per component whether it casts, and whether it receives, as a request says it.
+    /// For each component, whether it casts, and whether it receives, by the request.
     pub(super) fn roles(&self, written: &WrittenSite) -> Result<[Vec<bool>; 2], SiteError> {
         let mut roles = [Vec::new(), Vec::new()];
         for (index, (table, of_model)) in written.site.model.iter().zip(&self.of_model).enumerate() {
@@ -247,15 +247,14 @@ impl Models {
         Ok(roles)
     }
 
-    /// What the user should know of how they were read, and of what casts; each a sentence without its stop that names the
-    /// model.
+    /// Notes on how they were read, and on what casts, each a sentence without a full stop that names the model.
     pub(super) fn notes(&self, written: &WrittenSite, casts: &[bool]) -> Vec<Message> {
         let mut notes = self.notes_without_contents(written, casts);
         notes.extend(self.notes_on_contents(written));
         notes
     }
 
-    /// The same without what is listed by [`Models::contents`].
+    /// The same notes without what [`Models::contents`] lists.
     pub(super) fn notes_without_contents(&self, written: &WrittenSite, casts: &[bool]) -> Vec<Message> {
         let mut notes: Vec<Message> = self.notes.iter().chain(&self.standing).cloned().collect();
         for (index, (of_model, materials)) in self.of_model.iter().zip(&self.see_through).enumerate() {
@@ -267,7 +266,7 @@ impl Models {
     }
 }
 
-/// That the parts make no mesh, and whose the part is that is at fault.
+/// The error for parts that do not make a mesh; it names the model with the faulty part.
 fn no_mesh(models: &[(String, Range<usize>)], error: MeshError) -> SiteError {
     let whose = |model: &&(String, Range<usize>)| match (&error, models.len()) {
         (_, 1) => true,
@@ -278,7 +277,7 @@ fn no_mesh(models: &[(String, Range<usize>)], error: MeshError) -> SiteError {
     SiteError::Mesh { file, error }
 }
 
-/// From where models lie far away; a bare model stands in its own coordinates where nobody says a place.
+/// The point from which far-away models are measured: their own origin for a bare model without a place.
 fn far_from(written: &WrittenSite, proposed: Option<&PlaceTable>, is_on_earth: bool) -> FarFrom {
     match !written.is_bare_model() || written.site.place.is_some() || proposed.is_some() {
         true if is_on_earth => FarFrom::PlaceOnEarth,
@@ -287,7 +286,7 @@ fn far_from(written: &WrittenSite, proposed: Option<&PlaceTable>, is_on_earth: b
     }
 }
 
-/// A number of all that a mesh is, names too.
+/// A hash of a whole mesh, names included.
 fn mark(mesh: &Mesh) -> u64 {
     let names = mesh.components.iter().map(|component| (&component.name, &component.faces));
     FxBuildHasher.hash_one((
@@ -298,7 +297,7 @@ fn mark(mesh: &Mesh) -> u64 {
     ))
 }
 
-/// Says which materials of a model light passes that cast as solid, the most frequent first.
+/// A note on the see-through materials of a model, which cast as solid, the most frequent first.
 fn note_see_through(materials: &[SeeThrough], casts: &[bool]) -> Option<Message> {
     let casting = |material: &SeeThrough| material.parts.iter().filter(|&&part| casts[part]).count();
     let mut found: Vec<_> = materials.iter().map(|it| (casting(it), it)).filter(|(count, _)| *count > 0).collect();
@@ -318,17 +317,17 @@ fn note_see_through(materials: &[SeeThrough], casts: &[bool]) -> Option<Message>
     ])
 }
 
-/// All models where they stand, and what their files say of that.
+/// All models where they stand, and what their files say about that.
 pub(super) struct PlacedModels {
     pub(super) models: Vec<StandingModel>,
     pub(super) proposed: Option<PlaceTable>,
-    /// The place's elevation, where a model's file says it in place of the site file.
+    /// The place's elevation, if a model's file gives it and the site file does not.
     pub(super) elevation: Option<ModelElevation>,
     pub(super) place_notes: Vec<Message>,
     pub(super) references: Vec<ModelReference>,
 }
 
-/// A model as its file has it, and what is said of where it stands.
+/// A model as its file contains it, and what is said about where it stands.
 type UnplacedModel = (Placement, Model, Georeference);
 
 /// Reads the models, and finds the frame in which they stand.
@@ -340,7 +339,7 @@ fn read_unplaced(
     for index in 0..written.site.model.len() {
         let (placement, mut model) = model(written, index, &read_model)?;
         if matches!(model.coordinates, Coordinates::Map(_)) {
-            // a map's third coordinate is the height, whatever its format's axes are
+            // a map's third coordinate is the height, whatever the format's axes are
             (model.up, model.up_is_said) = (Up::Z, true);
         }
         let said = Georeference::of(&model, &placement).map_err(|fault| written.model_fault(index, fault))?;
@@ -352,7 +351,7 @@ fn read_unplaced(
     Ok((read, frame))
 }
 
-/// The place's elevation, where it is a model's file that says it. The models are read for that, and stand nowhere.
+/// The place's elevation if a model's file gives it. The models are read for that, but not placed.
 pub(super) fn read_elevation(
     written: &WrittenSite,
     read_model: impl Fn(&Path, &ReadOptions) -> Result<Model, ModelError>,
@@ -360,7 +359,8 @@ pub(super) fn read_elevation(
     Ok(read_unplaced(written, read_model)?.1.elevation)
 }
 
-/// Reads the models, and puts them into one frame: around the site's place, else around that which a file proposes.
+/// Reads the models and places them in one frame: around the site's place, otherwise around the one that a file
+/// proposes.
 pub(super) fn read_placed(
     written: &WrittenSite,
     read_model: impl Fn(&Path, &ReadOptions) -> Result<Model, ModelError>,
@@ -391,7 +391,7 @@ pub(super) fn read_placed(
     Ok(placed)
 }
 
-/// Reads one of the models, as its file has it.
+/// Reads one of the models as its file contains it.
 fn model(
     written: &WrittenSite,
     index: usize,
@@ -415,12 +415,12 @@ fn model(
     Ok((placement, model))
 }
 
-/// What people call a model: as the site file does.
+/// The name of a model in messages: as in the site file.
 pub(super) fn name(written: &WrittenSite, index: usize) -> &str {
     written.site.model.get(index).and_then(|table| table.path.as_deref()).unwrap_or_default()
 }
 
-/// That a model's file is not there, and what may be wrong with its path.
+/// The error for a missing file, and what may be wrong with its path.
 fn no_file(path: &str, file: &Path) -> Message {
     let control = path.chars().find(|letter| letter.is_control()).map(|letter| match letter {
         '\t' => "a tab",
@@ -430,7 +430,7 @@ fn no_file(path: &str, file: &Path) -> Message {
     match control {
         Some(letter) => message![
             format!(
-                "{path:?} has {letter} in it, which a backslash in double quotes makes of the letter behind it"
+                "{path:?} contains {letter}, which comes from a backslash in double quotes and the letter after it"
             );
             "write / between folders, or put the path in single quotes"
         ],
@@ -442,7 +442,7 @@ fn no_file(path: &str, file: &Path) -> Message {
         }
         None => message![
             format!("there is no file {}", file.display());
-            "write where the model lies, from the site file's folder"
+            "write the model's path relative to the site file's folder"
         ],
     }
 }
@@ -460,7 +460,7 @@ fn stamp(file: &Path) -> Option<(SystemTime, u64)> {
     Some((told.modified().ok()?, told.len()))
 }
 
-/// Per component, whether a list of names (or all) means it.
+/// For each component, whether the names of a list (or all) select it.
 fn chosen(
     written: &WrittenSite,
     index: usize,
@@ -474,7 +474,7 @@ fn chosen(
     }
 }
 
-/// What each model looks like, by its file's unit and axis, and by how it was turned and moved.
+/// What each model looks like, given its file's unit and axis, and how it was turned and moved.
 fn likenesses(
     written: &WrittenSite,
     mesh: &Mesh,

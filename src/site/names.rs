@@ -1,4 +1,4 @@
-//! Finds the components that a list of names means.
+//! Finds the components that a list of names selects.
 
 use super::file::Names;
 use crate::choice::nearest;
@@ -7,7 +7,7 @@ use crate::mesh::Component;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::borrow::Cow;
 
-/// A component's name, and all names by which it may be meant.
+/// A component's name, and all other names that select it.
 pub(super) type ComponentNames<'a> = (&'a str, &'a [String]);
 
 /// The names of components.
@@ -15,15 +15,15 @@ pub(super) fn names_of(components: &[Component]) -> Vec<ComponentNames<'_>> {
     components.iter().map(|component| (component.name.as_str(), component.aliases.as_slice())).collect()
 }
 
-/// A list of names, once it is known which of them there are.
+/// A list of names, with `!` resolved against the names that exist.
 struct NameList<'a> {
-    /// Those that are meant; where there are none, all are.
+    /// The names that select; if there are none, everything is selected.
     wanted: FxHashSet<Cow<'a, str>>,
-    /// Those that are not.
+    /// The names that exclude.
     unwanted: FxHashSet<Cow<'a, str>>,
-    /// Whether nothing is meant but what is wanted.
+    /// Whether only `wanted` names select.
     is_closed: bool,
-    /// The first that no component has.
+    /// The first name that no component has.
     unknown: Option<&'a str>,
 }
 
@@ -38,7 +38,7 @@ impl Names {
         self.chosen_of(&names_of(components))
     }
 
-    /// The same of what is no component yet.
+    /// The same for parts that are not components yet.
     pub(super) fn chosen_of(&self, components: &[ComponentNames<'_>]) -> Vec<bool> {
         let names = match self {
             Names::All(all) => return vec![*all; components.len()],
@@ -51,7 +51,7 @@ impl Names {
         components.iter().map(|of| (!is_closed || has(of, &wanted)) && !has(of, &unwanted)).collect()
     }
 
-    /// Whether nothing is meant but what it names.
+    /// Whether only what the list names is selected.
     pub(super) fn means_only_named(&self, components: &[Component]) -> bool {
         match self {
             Names::All(all) => !all,
@@ -59,7 +59,7 @@ impl Names {
         }
     }
 
-    /// The first of the names that no component has, and the nearest that one has.
+    /// The first name that no component has, and the nearest one that exists.
     pub(super) fn unknown(&self, components: &[ComponentNames<'_>]) -> Option<(String, String)> {
         let Names::Some(names) = self else { return None };
         let unknown = list(names, components).unknown?;
@@ -72,7 +72,7 @@ impl Names {
 fn list<'a>(names: &'a [String], components: &[ComponentNames<'_>]) -> NameList<'a> {
     let texts: Vec<Cow<str>> = names.iter().map(|name| composed(name)).collect();
     let negated = |text: &Cow<'a, str>| text.strip_prefix('!').map(|name| Cow::Owned(name.to_owned()));
-    // whether there is a component of that name
+    // whether a component of that name exists
     let mut there: FxHashMap<Cow<str>, bool> = FxHashMap::default();
     for text in &texts {
         there.extend(negated(text).into_iter().chain([text.clone()]).map(|name| (name, false)));
@@ -100,7 +100,7 @@ fn list<'a>(names: &'a [String], components: &[ComponentNames<'_>]) -> NameList<
     NameList { wanted, unwanted, is_closed, unknown }
 }
 
-/// All names by which a component may be meant.
+/// All names that select a component.
 fn all_names<'a>((name, aliases): &ComponentNames<'a>) -> impl Iterator<Item = &'a str> {
     aliases.iter().map(String::as_str).chain([*name])
 }

@@ -1,4 +1,4 @@
-//! Notes on where models stand, on requests far from them, and on the precision of their numbers.
+//! Notes on where models stand, on requests far away from them, and on the precision of their numbers.
 
 use super::likeness::{self, Mend};
 use crate::mesh::{Component, CornerPrecision, Mesh};
@@ -7,21 +7,21 @@ use crate::view::{Grid, Probe};
 use glam::{DVec2, DVec3};
 use std::ops::Range;
 
-/// Beyond this distance a place's sun and its flat frame no longer hold to what the drawing says, metres.
+/// The distance from the place beyond which its sun and its flat frame are no longer accurate, metres.
 const FAR_M: f64 = 20_000.0;
 
-/// A plan, an eye or a probe farther from the place than this gets a note, metres: a town's models reach less far, and
-/// map coordinates always more.
+/// A plan, a camera or a probe farther from the place than this gets a note, metres. It is beyond the size of a town,
+/// and below any map coordinates.
 const ASKED_FAR_M: f64 = 50_000.0;
 
-/// From where the note on all models counts.
+/// The point from which far-away models are measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FarFrom {
-    /// The place; a file says where on Earth the models stand.
+    /// The place; a file gives the models' position on Earth.
     PlaceOnEarth,
     /// The place.
     Place,
-    /// A file's own zero, as there is no place.
+    /// A file's own origin, as there is no place.
     OwnZero,
 }
 
@@ -56,19 +56,19 @@ fn crs() -> Piece {
     set_to("[[model]]", "crs", "EPSG:…".to_owned(), "`crs = \"EPSG:…\"` under [[model]]".to_owned())
 }
 
-/// The notes on one of the models, each a sentence without its stop that begins with its name.
+/// The notes on one of the models, each a sentence without a full stop that begins with its name.
 pub(super) fn of_model(mesh: &Mesh, model: &str, components: Range<usize>, mends: &[Mend]) -> Vec<Message> {
     let components = &mesh.components[components];
     let mut notes = likeness::notes(model, mends);
-    // in the wrong unit all is far
+    // with the wrong unit everything seems far away
     if !mends.iter().any(|mend| matches!(mend, Mend::Scale(_))) {
         notes.extend(far_off(mesh, model, components).into_iter().chain(rounded(model, components)));
     }
     notes
 }
 
-/// Whether the plan that is asked, or the eye that is written, is in map coordinates; where the models stand so far
-/// away, too, the note on them says it.
+/// Notes if the requested plan or camera seems to be in map coordinates. There is none if the models stand as far away,
+/// as their own note says it.
 pub(super) fn on_view(mesh: &Mesh, grid: &Grid, eye: Option<DVec3>) -> impl Iterator<Item = Message> {
     let [west, south, east, north] = grid.region();
     let middle = DVec2::new(west + east, south + north) / 2.0;
@@ -79,7 +79,7 @@ pub(super) fn on_view(mesh: &Mesh, grid: &Grid, eye: Option<DVec3>) -> impl Iter
     plan.into_iter().chain(camera).filter(move |_| are_near)
 }
 
-/// Whether a probe is in map coordinates: the first one that is.
+/// A note on the first probe that seems to be in map coordinates.
 pub(super) fn on_probes(probes: &[Probe]) -> Option<Message> {
     let far = |probe: &Probe| {
         let point = setting("[[probe]]", "point", "`point`");
@@ -92,13 +92,13 @@ fn asked_far(what: &str, key: Piece, at: DVec2) -> Option<Message> {
     (at.length() > ASKED_FAR_M).then(|| {
         let far = kilometres(at.length() / 1000.0);
         message![
-            format!("{what} {far} from the place, maybe in another country");
-            "if ", key, " is in map coordinates, write metres east and north of the place"
+            format!("{what} {far} from the place");
+            "if ", key, " is in map coordinates, write it in metres east and north of the place"
         ]
     })
 }
 
-/// What of a model stands far from all else.
+/// A note on the parts of a model that stand far from everything else.
 fn far_off(mesh: &Mesh, model: &str, components: &[Component]) -> Option<Message> {
     let strays = |component: &Component| -> Vec<f64> {
         let faces = &mesh.faces[component.faces.start as usize..component.faces.end as usize];
@@ -120,7 +120,7 @@ fn far_off(mesh: &Mesh, model: &str, components: &[Component]) -> Option<Message
     let triangles: usize = of_component.iter().map(|(_, found)| found.len()).sum();
     if triangles == components.iter().map(|component| component.faces.len()).sum::<usize>() {
         return Some(message![
-            format!("{model} stands {far} from all else, and the default region and camera leave it out");
+            format!("{model} stands {far} from everything else, and the default region and camera leave it out");
             "if it is in map coordinates, write ", crs(), ", which turns it and moves it to the place, or ", position()
         ]);
     }
@@ -131,19 +131,19 @@ fn far_off(mesh: &Mesh, model: &str, components: &[Component]) -> Option<Message
     };
     let those = if triangles == 1 { "1 triangle".to_owned() } else { format!("{triangles} triangles") };
     Some(message![
-        format!("{model} has {those} of '{}'{others} as far as {far} from all else", worst.name);
-        "the default region and camera leave out what lies there: delete it from the model if it is a leftover"
+        format!("{model} has {those} of '{}'{others} up to {far} from everything else", worst.name);
+        "the default region and camera do not include it: delete it from the model if it is a leftover"
     ])
 }
 
-/// How far a vertex lies from the box around what stands together, metres.
+/// A vertex's distance from the box around what stands together, metres.
 fn away_m(mesh: &Mesh, vertex: u32) -> f64 {
     let at = mesh.vertices[vertex as usize];
     let [low, high] = mesh.home();
     at.distance(at.clamp(low, high)).into()
 }
 
-/// How coarse the numbers are that a model is written with.
+/// A note if the numbers of a model are coarse.
 fn rounded(model: &str, components: &[Component]) -> Option<Message> {
     let coarse = components.iter().filter_map(|component| Some((component, component.coarse.as_ref()?)));
     let (component, CornerPrecision { step_m, is_float, .. }) =
@@ -154,16 +154,16 @@ fn rounded(model: &str, components: &[Component]) -> Option<Message> {
             format!(
                 "{model} has corners rounded to {step} m, as their numbers are too large for single precision ('{name}')"
             );
-            "no shadow of them is more exact: move the origin next to the model before it is exported"
+            "no shadow of them can be more exact: move the origin close to the model before exporting it"
         ],
         false => message![
             format!("{model} has corners rounded to {step} m, as they are written in whole steps ('{name}')");
-            "no shadow of them is more exact: export it without quantisation, or with more bits"
+            "no shadow of them can be more exact: export the model without quantisation, or with more bits"
         ],
     })
 }
 
-/// A length in metres with two digits.
+/// A length in metres with two significant digits.
 fn metres(length: f64) -> String {
     let digits = (1.0 - length.log10().floor()).clamp(0.0, 6.0) as usize;
     let text = format!("{length:.digits$}");

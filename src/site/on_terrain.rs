@@ -1,4 +1,4 @@
-//! Puts models whose heights are measured from the ground onto the terrain of the others.
+//! Puts models whose heights are measured from the ground onto the other models' terrain.
 
 use super::stand::StandingModel;
 use crate::formats::PartKind;
@@ -7,11 +7,11 @@ use crate::message::{Message, message};
 use glam::{DVec2, DVec3};
 use std::ops::RangeInclusive;
 
-/// Cells of the raster in which terrain is looked up, to a side at most.
+/// The most cells along a side of the raster in which terrain is looked up.
 const MOST_CELLS: f64 = 1024.0;
 
-/// Moves the parts of models that stand on the ground up or down to the terrain below them: to its lowest point below their
-/// corners, from which OpenStreetMap, too, measures heights. Without terrain they stand at the place's elevation.
+/// Moves parts that stand on the ground up or down to the lowest point of the terrain below their corners, from which
+/// OpenStreetMap measures heights, too. Without terrain they stand at the place's elevation.
 pub(super) fn settle(models: &mut [StandingModel]) {
     let is_one = |standing: &StandingModel| standing.model.from_ground.contains(&true);
     if !models.iter().any(is_one) {
@@ -19,7 +19,7 @@ pub(super) fn settle(models: &mut [StandingModel]) {
     }
     let terrain = TerrainHeights::of(models);
     for standing in models.iter_mut().filter(|standing| is_one(standing)) {
-        // where its file says how high its zero lies, that is no height of the ground
+        // a file's own height of its origin is not a height of the ground
         let zero_m = if standing.is_where_said { standing.position.z } else { 0.0 };
         let StandingModel { model, notes, .. } = standing;
         let (mut settled, mut beyond) = (0, 0);
@@ -34,14 +34,14 @@ pub(super) fn settle(models: &mut [StandingModel]) {
             let up = lowest.unwrap_or_default() - zero_m;
             part.positions.iter_mut().for_each(|corner| corner.z += up);
         }
-        // without terrain they stand at one height, and only what stands so beside others is told
+        // without terrain all stand at one height, which is only worth a note beside other models
         if terrain.is_some() || !model.stands_on_ground() {
             notes.push(told([settled, beyond], model.parts.len(), terrain.is_some()));
         }
     }
 }
 
-/// That some of a model's parts say no height of the ground, and how many stand on the terrain, and how many beyond it.
+/// A note that some parts of a model have no height of the ground; it counts those on the terrain and those beyond it.
 fn told([settled, beyond]: [usize; 2], count: usize, has_terrain: bool) -> Message {
     let without = settled + beyond;
     if !has_terrain {
@@ -61,21 +61,21 @@ fn told([settled, beyond]: [usize; 2], count: usize, has_terrain: bool) -> Messa
     message![format!("says no height of the ground{of}: {settled}{whose} stand on the terrain{beyond}")]
 }
 
-/// The terrain's triangles, by the cells of a raster that they touch.
+/// The terrain's triangles, sorted into the cells of a raster that they touch.
 struct TerrainHeights {
     triangles: Vec<[DVec3; 3]>,
     low: DVec2,
     cell: f64,
     columns: usize,
     rows: usize,
-    /// Where each cell's triangles begin, and where the last one's end.
+    /// For each cell, the index at which its triangles begin; and the end of the last one's.
     first: Vec<usize>,
-    /// Numbers of triangles, cell after cell.
+    /// Triangle indices, cell by cell.
     in_cells: Vec<u32>,
 }
 
 impl TerrainHeights {
-    /// Of all models; none where nothing is terrain.
+    /// The terrain of all models; `None` without terrain.
     fn of(models: &[StandingModel]) -> Option<TerrainHeights> {
         let parts = models.iter().flat_map(|standing| {
             let model = &standing.model;
@@ -96,7 +96,7 @@ impl TerrainHeights {
         Some(found)
     }
 
-    /// Fills the cells: counted first, so that all lie in one list.
+    /// Fills the cells. Counting first allows one list for all.
     fn sort(&mut self) {
         let mut first = vec![0; self.columns * self.rows + 1];
         for triangle in &self.triangles {
@@ -116,7 +116,7 @@ impl TerrainHeights {
         (self.first, self.in_cells) = (first, in_cells);
     }
 
-    /// The cells of a box around a triangle.
+    /// The cells of a triangle's bounding box.
     fn cells(&self, triangle: &[DVec3; 3]) -> impl Iterator<Item = usize> + use<> {
         let range = |axis: usize, count: usize| -> RangeInclusive<usize> {
             let at = triangle.map(|corner| ((corner[axis] - self.low[axis]) / self.cell) as usize);
@@ -127,7 +127,7 @@ impl TerrainHeights {
         down.flat_map(move |row| across.clone().map(move |column| row * columns + column))
     }
 
-    /// The highest terrain at a point of the plan; none beside it.
+    /// The height of the highest terrain at a point in plan; `None` beyond its edge.
     fn height(&self, at: DVec2) -> Option<f64> {
         let cell = (at - self.low) / self.cell;
         let is_inside = cell.min_element() >= 0.0 && (cell.x as usize) < self.columns && (cell.y as usize) < self.rows;
@@ -138,12 +138,12 @@ impl TerrainHeights {
     }
 }
 
-/// The height of a triangle above a point of its plan.
+/// The height of a triangle at a point in plan.
 fn above(&[a, b, c]: &[DVec3; 3], at: DVec2) -> Option<f64> {
     let area = (b - a).truncate().perp_dot((c - a).truncate());
     let share = |one: DVec3, other: DVec3| (one.truncate() - at).perp_dot(other.truncate() - at) / area;
     let shares = [share(b, c), share(c, a), share(a, b)];
-    // a point on the side of two is in both
+    // a point on the edge between two triangles is in both
     let is_inside = area != 0.0 && shares.iter().all(|share| *share >= -1e-9);
     is_inside.then(|| shares[0] * a.z + shares[1] * b.z + shares[2] * c.z)
 }

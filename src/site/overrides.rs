@@ -15,11 +15,11 @@ use std::path::PathBuf;
 pub struct Overrides {
     /// Latitude and longitude, degrees, for a model file or a site file without `[place]`.
     pub place: Option<[f64; 2]>,
-    /// The upward axis of all models, whatever their files say.
+    /// The up axis of all models, whatever their files say.
     pub up: Option<Up>,
-    /// Metres: the height of all footprints that have none, whatever the site file says.
+    /// The height, metres, of all footprints without one, whatever the site file says.
     pub default_height: Option<f64>,
-    /// Further model files of the same site.
+    /// More model files of the same site.
     pub beside: Vec<PathBuf>,
     /// How model files are read.
     pub reading: ModelReader,
@@ -33,19 +33,19 @@ pub struct Overrides {
     pub to: Option<Reading>,
     /// The time between two instants, seconds.
     pub step_secs: Option<u32>,
-    /// To within how many seconds times of change are found; 0 for the instants alone.
+    /// The precision of times of change, seconds; 0 for the instants alone.
     pub resolution_secs: Option<u32>,
     /// The first date of a study of several days.
     pub from_date: Option<NaiveDate>,
     /// The last date of a study of several days.
     pub to_date: Option<NaiveDate>,
-    /// A single instant instead of the study, by the place's clock: `"2026-09-18T15:00".parse()`.
+    /// A single instant instead of the study, on the place's clock: `"2026-09-18T15:00".parse()`.
     pub at: Option<Reading>,
-    /// The same as a time that is known in every zone; it has priority over all other fields of time.
+    /// The same as an absolute time. It has priority over all other fields of time.
     pub instant: Option<DateTime<Zone>>,
     /// A single probe instead of the site file's: metres east, north and up of the place.
     pub point: Option<DVec3>,
-    /// The normal of that probe, of any length but 0.
+    /// The normal of that probe, of any length except 0.
     pub normal: Option<DVec3>,
     /// A table of probes instead of the site file's.
     pub points: Option<PathBuf>,
@@ -71,7 +71,7 @@ pub struct Overrides {
     pub technique: Option<Method>,
     /// The finder of silhouettes.
     pub silhouette: Option<Finder>,
-    /// The depth of the paper's hextree; without it the finder is its successor.
+    /// The depth of the paper's hextree; without it the finder is the hierarchy.
     pub hextree_depth: Option<u32>,
     /// The engine: the graphics adapter, or the processor.
     pub engine: Option<Engine>,

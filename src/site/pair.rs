@@ -1,4 +1,4 @@
-//! Two states of one site that are compared: with the same place, study, plan and ground, and with other models.
+//! Two states of one site that are compared. Place, study, plan and ground are the same, and the models differ.
 
 use super::error::SiteError;
 use super::extent::{Bounds, with_shadows};
@@ -13,35 +13,35 @@ use crate::message::{Message, message};
 use std::cell::Cell;
 use std::path::Path;
 
-/// Places nearer to each other than this are one, metres along the ground and in height.
+/// Places closer to each other than this are the same, metres horizontally and in height.
 const ONE_PLACE_M: f64 = 1.0;
-/// Metres of a degree of latitude.
+/// Metres per degree of latitude.
 const DEGREE_M: f64 = 111_195.0;
 
-/// The existing and the proposed site. Place, instants, grid and ground are equal to the bit.
+/// The existing and the proposed site. Place, instants, grid and ground are identical to the bit.
 #[derive(Clone, Debug)]
 pub struct Pair {
-    /// What stands there before.
+    /// The state before.
     pub before: Site,
-    /// What stands there after.
+    /// The state after.
     pub after: Site,
-    /// What people call them: their places' names where those differ, otherwise their files.
+    /// Their names: those of their places if they differ, otherwise their files.
     pub names: [String; 2],
 }
 
 impl Pair {
-    /// Reads and checks both. Study, plan, camera and, where `after` says none, place and ground are those of `before`;
-    /// a region that nobody names holds the models and shadows of both.
+    /// Reads and checks both. Study, plan and camera are those of `before`, as are place and ground if `after` has
+    /// none. A region that is not given contains the models and shadows of both.
     ///
     /// # Errors
-    /// As [`Site::load`]; and where `after` says another place, time zone or ground.
+    /// As [`Site::load`]; and a different place, time zone or ground in `after`.
     pub fn load(before: &Path, after: &Path, asked: &Overrides) -> Result<Pair, SiteError> {
         let before = WrittenSite::read(before, asked)?;
         let after = WrittenSite::read_beside(after, &before, asked)?;
         Self::of(&before, &after, asked, |path, options| asked.reading.read(path, options))
     }
 
-    /// As [`Pair::load`], of two requests that are in memory, with another reader of model files.
+    /// As [`Pair::load`], for two requests in memory, with a different reader of model files.
     ///
     /// # Errors
     /// As [`Pair::load`].
@@ -55,7 +55,7 @@ impl Pair {
         Self::with_models(before, after, asked, read, read)
     }
 
-    /// As [`Pair::of`], with models of either that may have been read before.
+    /// As [`Pair::of`], with models of either state that may have been read before.
     ///
     /// # Errors
     /// As [`Pair::load`].
@@ -69,7 +69,7 @@ impl Pair {
         let (before, models_before) = before.located(|| models_before(before))?;
         let before = &*before;
         let mut second = after.clone();
-        // what says no place, not even by a model's file of its own, stands in that of the other
+        // a state without a place, its model files' included, takes the other one's
         second.take_place_of(before)?;
         let after_name = same_place(before, &second, asked)?;
         let table = &mut second.site;
@@ -81,30 +81,29 @@ impl Pair {
         let models_before = || models_before().inspect(|models| elevation.set(models.elevation_m));
         let mut first = Site::with_models(before, asked, models_before)?;
         match table.ground.level {
-            // the command line's goes before what either says
+            // the command line has priority over both files
             Some(level) if asked.ground.is_none() && !first.ground.is_at(level) => {
-                let what =
-                    format!("{level} m is another ground than that of {}, {} m", before.file, first.ground.level);
+                let what = format!("{level} m differs from the ground of {}, {} m", before.file, first.ground.level);
                 return Err(refuse(after.key("ground", "level"), message![what; "write the same level in both"]));
             }
             _ => table.ground.level = Some(first.ground.level),
         }
-        // a model's file has said it for both
+        // a model's file has given it for both
         if let Some((place, height_m)) = second.site.place.as_mut().zip(elevation.get()) {
             place.elevation = Some(height_m);
         }
         let mut second = Site::with_models(&second, asked, || models_after(&second))?;
-        // one sun, where a file of the second alone says an elevation
+        // both have the same sun, if only a file of the second gives an elevation
         (second.place, second.track) = (first.place.clone(), first.track.clone());
         let [(low, high), (other_low, other_high)] = [&first, &second].map(|site| {
-            // a site has a triangle
+            // a site always has a triangle
             let bounds = Bounds::of(&site.mesh).unwrap_or_default();
             let [low, high] = with_shadows(&site.mesh, bounds, &site.casts, site.ground.level, &site.track, SHADOW_CUT);
             (low, high)
         });
         first.grid = plan::grid(before, asked, || [low.min(other_low), high.max(other_high)])?;
         second.grid = first.grid;
-        // where nobody says it
+        // if neither file gives it
         if after.site.ground.level.is_none() && first.ground.from != GroundFrom::Site {
             let alone = Ground::found(&second.mesh, &second.receives).level;
             second.notes.extend(note_ground([before, after], &first.ground, alone));
@@ -118,7 +117,7 @@ impl Pair {
         Ok(Pair { before: first, after: second, names })
     }
 
-    /// What the user should know of how the models of both were read, each told once.
+    /// Notes on how the models of both were read, without repetition.
     pub fn notes(&self) -> Vec<Message> {
         let mut notes = self.before.notes.clone();
         notes.extend(self.after.notes.iter().filter(|note| !self.before.notes.contains(note)).cloned());
@@ -126,14 +125,14 @@ impl Pair {
     }
 }
 
-/// What people call two states: their places' names where those differ, otherwise their files.
+/// The names of two states: those of their places if they differ, otherwise their files.
 fn told_apart(places: [&str; 2], files: [&WrittenSite; 2]) -> [String; 2] {
     let names = places.map(str::trim);
     let told_apart = composed(names[0]) != composed(names[1]) && names.iter().all(|name| !name.is_empty());
     if told_apart { names.map(str::to_owned) } else { files.map(|written| written.file.clone()) }
 }
 
-/// The name of the place of `after`; or why it is another place than that of `before`.
+/// The name of the place of `after`, or the error that it differs from the place of `before`.
 fn same_place(before: &WrittenSite, after: &WrittenSite, asked: &Overrides) -> Result<String, SiteError> {
     let (here, there) = (before.place(asked)?, after.place(asked)?);
     let north = (there.latitude_deg - here.latitude_deg) * DEGREE_M;
@@ -141,7 +140,10 @@ fn same_place(before: &WrittenSite, after: &WrittenSite, asked: &Overrides) -> R
     let east = turned * DEGREE_M * here.latitude_deg.to_radians().cos();
     let fault = |key: &str, what: String| {
         let what = format!("{what} {}", before.file);
-        Err(refuse(after.key("place", key), message![what; "both must have one place, since the sun is one"]))
+        Err(refuse(
+            after.key("place", key),
+            message![what; "both must have the same place, since they have the same sun"],
+        ))
     };
     let apart = north.hypot(east);
     if apart > ONE_PLACE_M {
@@ -157,12 +159,12 @@ fn same_place(before: &WrittenSite, after: &WrittenSite, asked: &Overrides) -> R
     Ok(there.name)
 }
 
-/// That the second state has the ground of the first, and which it would have alone.
+/// A note that the second state has the ground of the first, and which ground it would have alone.
 fn note_ground([before, after]: [&WrittenSite; 2], ground: &Ground, alone: f64) -> Option<Message> {
     (!ground.is_at(alone)).then(|| {
         let level = metres(ground.level);
         message![
-            format!("{} has the ground of {}, {level}, since a comparison has one", after.file, before.file);
+            format!("{} has the ground of {}, {level}, since a comparison has only one", after.file, before.file);
             format!("alone it would have {}", metres(alone))
         ]
     })

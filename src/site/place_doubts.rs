@@ -1,4 +1,4 @@
-//! Doubts about where models stand: places in files that nobody has set, and sources that disagree.
+//! Doubts about where models stand: default places that nobody has set, and sources that disagree.
 
 use super::anchored_zero::{AnchoredZero, true_north};
 use crate::crs::{Crs, GeodeticPoint, LocalFrame};
@@ -6,18 +6,18 @@ use crate::formats::{Anchor, AnchorPoint};
 use crate::message::{Message, message, setting};
 use glam::DVec3;
 
-/// Two places that are nearer than this are one: metres, along the ground and in height.
+/// Places closer than this are the same, metres horizontally and in height.
 pub(super) const ONE_PLACE_M: f64 = 10.0;
-/// Two norths that differ by less than this are one: 0.1°, radians.
+/// Norths that differ by less than this are the same: 0.1°, in radians.
 const ONE_NORTH_RAD: f64 = 0.1 * std::f64::consts::PI / 180.0;
 
-/// Where people build by a map, its north is nearer than this to true north: 5°, radians.
+/// More than the convergence of any map that is built by: 5°, in radians.
 const LARGEST_CONVERGENCE_RAD: f64 = 5.0 * std::f64::consts::PI / 180.0;
 
-/// A place that is nearer than this to a default is that default: degrees, some 150 m.
+/// A place closer than this to a default is that default: degrees, some 150 m.
 const NEAR_DEG: f64 = 0.0015;
 
-/// Places that programs write where nobody has set one, as found in their files: latitude, longitude, and what it is.
+/// Default places that programs write, as found in their files: latitude, longitude, and a description.
 const DEFAULTS: &[(f64, f64, &str)] = &[
     (42.3584, -71.0598, "the middle of Boston, which Revit writes"),
     (42.3587, -71.0567, "the middle of Boston, which Revit writes"),
@@ -32,10 +32,10 @@ pub(super) fn of(at: Option<GeodeticPoint>, said_by: &str) -> Option<Message> {
         (at.latitude_deg - latitude).abs() < NEAR_DEG && (at.longitude_deg - longitude).abs() < NEAR_DEG
     };
     let (.., place) = DEFAULTS.iter().find(is_near)?;
-    let what = format!("says by its {said_by} that it stands at {}: {place} where nobody has set a place", degrees(at));
+    let what = format!("says by its {said_by} that it stands at {}: {place} if nobody has set a place", degrees(at));
     Some(message![
         what;
-        "if it stands elsewhere, say so: ",
+        "if it stands elsewhere, write so: ",
         setting("[place]", "latitude", "latitude"),
         " and ",
         setting("[place]", "longitude", "longitude in [place]"),
@@ -44,15 +44,15 @@ pub(super) fn of(at: Option<GeodeticPoint>, said_by: &str) -> Option<Message> {
     ])
 }
 
-/// A note on a place whose latitude and longitude, or easting and northing, are 0.
+/// A note on a place whose latitude and longitude, or easting and northing, are both 0.
 pub(super) fn zero(said_by: &str) -> Message {
     message![
-        format!("says by its {said_by} that it stands at 0, 0, which is what is written where nobody has set a place");
+        format!("says by its {said_by} that it stands at 0, 0, which programs write if nobody has set a place");
         "it is not used"
     ]
 }
 
-/// A note if a point lies far outside of its map; `said_by` names the anchor that says the point, if one does.
+/// A note if a point lies far outside of its map; `said_by` names the anchor that gives the point, if one does.
 pub(super) fn outside(crs: &Crs, at: DVec3, said_by: Option<&str>) -> Option<Message> {
     if !crs.is_far_outside(at) {
         return None;
@@ -62,12 +62,12 @@ pub(super) fn outside(crs: &Crs, at: DVec3, said_by: Option<&str>) -> Option<Mes
     let what = format!("stands{by} at {:.0}, {:.0} in {}{there}: far outside of that map", at.x, at.y, crs.name());
     Some(message![
         what;
-        "easting and northing may be exchanged or in another unit, or the map another one: correct the file, or write `crs` \
+        "easting and northing may be exchanged or in a different unit, or the map may be wrong: correct the file, or write `crs` \
          or `position` under [[model]]"
     ])
 }
 
-/// A note if the file says another map of an anchor's point than the user does, and the point is elsewhere there.
+/// A note if the file gives an anchor's point in a different map than the user does, and the point is elsewhere in it.
 pub(super) fn other_map(anchor: &Anchor, asked: &Crs) -> Option<Message> {
     let AnchorPoint::Map { crs, easting, northing, .. } = &anchor.at else { return None };
     let of_file = Crs::read(crs);
@@ -85,12 +85,13 @@ pub(super) fn other_map(anchor: &Anchor, asked: &Crs) -> Option<Message> {
     let key = || setting("[[model]]", "crs", "`crs` under [[model]]");
     Some(message![
         format!("says by its {} that it stands in {name}; ", anchor.said_by), key(),
-        format!(" says {}{away}, and that is taken", asked.name());
+        format!(" says {}{away}, which is used", asked.name());
         "leave out ", key(), " if the file is right"
     ])
 }
 
-/// A note if another source contradicts the one that is used. What only one of them says is no contradiction.
+/// A note if another source contradicts the one that is used. Something that only one of them gives is not a
+/// contradiction.
 pub(super) fn apart(used: &str, one: &AnchoredZero, other_by: &str, other: &AnchoredZero) -> Option<Message> {
     let away = one.at.zip(other.at).and_then(|(one, other)| {
         let there = LocalFrame::around(one)?.point(other);
@@ -116,31 +117,31 @@ pub(super) fn apart(used: &str, one: &AnchoredZero, other_by: &str, other: &Anch
     }
     let what = format!("is placed by its {used}; its {other_by} says otherwise: {}", differs.join(", "));
     Some(
-        message![what; setting("[[model]]", "position", "`position`"), " and ", setting("[[model]]", "north", "`north` under [[model]]"), " go before both"],
+        message![what; setting("[[model]]", "position", "`position`"), " and ", setting("[[model]]", "north", "`north` under [[model]]"), " override both"],
     )
 }
 
-/// A note if an anchor on a map that cannot be used contradicts the north that is used, by more than a map's convergence
-/// can be.
+/// A note if an anchor in a map that cannot be used contradicts the north that is used by more than any map's
+/// convergence.
 pub(super) fn turned_apart(used: &str, one: &AnchoredZero, other: &Anchor) -> Option<Message> {
     let turned = half_turn(other.north_rad? - true_north(one)?);
     let is_map = matches!(other.at, AnchorPoint::Map { .. });
     (is_map && turned.abs() > LARGEST_CONVERGENCE_RAD).then(|| {
         let what = format!(
-            "is turned by its {used}; its {} says otherwise, by {}: more than a map's north differs from true north",
+            "is turned by its {used}; its {} says otherwise, by {}: more than a map's north can differ from true north",
             other.said_by,
             angle(turned)
         );
-        message![what; "`north` under [[model]] goes before both"]
+        message![what; "`north` under [[model]] overrides both"]
     })
 }
 
-/// The angle from one north to another, if it is too large for them to be one: radians, clockwise.
+/// The clockwise angle from one north to another, radians, if they are not the same.
 pub(super) fn norths_apart(one: f64, other: f64) -> Option<f64> {
     Some(half_turn(other - one)).filter(|turned| turned.abs() > ONE_NORTH_RAD)
 }
 
-/// An angle, brought between −π and π.
+/// Brings an angle between −π and π.
 fn half_turn(angle: f64) -> f64 {
     let turn = std::f64::consts::TAU;
     (angle + turn / 2.0).rem_euclid(turn) - turn / 2.0
@@ -148,7 +149,7 @@ fn half_turn(angle: f64) -> f64 {
 
 /// An angle in degrees with two decimals: `30.43°`.
 pub(super) fn angle(radians: f64) -> String {
-    // −0 is 0
+    // turns −0 into 0
     format!("{:.2}°", (radians.to_degrees() * 100.0).round() / 100.0 + 0.0)
 }
 

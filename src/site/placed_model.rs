@@ -1,4 +1,4 @@
-//! One model file as it was read, upright and in metres, so that it can be written as another file.
+//! A model file, read, upright and in metres, ready to be written as another file.
 
 use super::anchored_zero::true_north;
 use super::contents::{ModelContents, ReadContents};
@@ -17,39 +17,40 @@ use std::path::Path;
 /// A model file that was read.
 #[derive(Clone, Debug)]
 pub struct PlacedModel {
-    /// What people call the file.
+    /// The file's name in messages.
     pub name: String,
-    /// In metres, z up, around the file's own zero; of one in the coordinates of a map around the place in its middle.
+    /// The model in metres, z up, around the file's own origin; around the place in its middle if it is in map
+    /// coordinates.
     pub model: Model,
-    /// Where that zero stands on Earth, and which way true north is, as far as anybody says it.
+    /// Where that origin lies on Earth, and where true north is, as far as they are known.
     pub zero: Option<Anchor>,
-    /// How many metres a unit of the file was taken for.
+    /// The length of the file's unit that was used, metres.
     pub scale_m: f64,
-    /// Whether the file, its format or its map says that.
+    /// Whether the file, its format or its map gives that unit.
     pub unit_is_said: bool,
-    /// Whether the file, its format, its map or the user says which axis is up.
+    /// Whether the file, its format, its map or the user gives the up axis.
     pub up_is_said: bool,
-    /// What the user should know of how it was read, each a sentence without its stop that names it.
+    /// Notes on how it was read, each a sentence without a full stop that names the file.
     pub notes: Vec<Message>,
-    /// What it holds.
+    /// Its contents.
     pub contents: ModelContents,
 }
 
-/// Reads a model file; of what is asked that takes axis, heights, words and the way of reading.
+/// Reads a model file. Of `asked` only the axis, heights, words and the way of reading are used.
 ///
 /// # Errors
-/// What is wrong with the file, and coordinates of a map that is not known.
+/// Anything wrong with the file, or coordinates in an unknown map.
 pub fn load_model(path: &Path, asked: &Overrides) -> Result<PlacedModel, SiteError> {
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let placement = Placement { up: asked.up, default_height_m: asked.default_height, ..Placement::default() };
     let mut model = asked.reading.read(&on_disk(path), &placement.read_options())?;
     if matches!(model.coordinates, Coordinates::Map(_)) {
-        // a map's third coordinate is the height, whatever its format's axes are
+        // a map's third coordinate is the height, whatever the format's axes are
         (model.up, model.up_is_said) = (Up::Z, true);
     }
     let refused = |fault: StandFault| {
         let mut fault = fault.into_message();
-        // there is no key to write here
+        // there is no key that could be written here
         fault.hint = message![""; "export the file in another map, for example EPSG:25832"].hint;
         SiteError::from(ModelError { file: path.to_owned(), fault: fault.into() })
     };
@@ -75,7 +76,7 @@ pub fn load_model(path: &Path, asked: &Overrides) -> Result<PlacedModel, SiteErr
     Ok(PlacedModel { contents, name, zero, scale_m, unit_is_said, up_is_said, notes, model })
 }
 
-/// A model that lies on a map, corner by corner in the frame of the place that it proposes; and that place.
+/// Converts a model in a map corner by corner to the frame of the place that it proposes. Returns that place, too.
 fn around_its_middle(
     model: Model,
     placement: &Placement,
@@ -89,21 +90,21 @@ fn around_its_middle(
         .and_then(around)
         .ok_or_else(|| StandFault::File(message!["has coordinates where its map does not reach"]))?;
     let mut model = stand(model, placement, said, Some(&frame))?.model;
-    // that was said of the file's own zero
+    // the anchors are about the file's own origin
     model.anchors.clear();
     model.coordinates = Coordinates::Local;
-    // heights from the ground stand on whatever height the place has
+    // heights from the ground say nothing about the place's elevation
     let elevation_m = (!model.stands_on_ground()).then_some(at.height_m);
     let height = elevation_m.map(|height| format!(", {} above the sea", metres(height))).unwrap_or_default();
     let note = message![format!(
-        "was in the coordinates of a map, and stands in metres east, north and up of {}{height}, by true north",
+        "was in map coordinates, and is written in metres east, north and up of {}{height}, with true north",
         degrees(at)
     )];
     let point = AnchorPoint::Geographic { latitude_deg: at.latitude_deg, longitude_deg: at.longitude_deg, elevation_m };
     Ok((model, Anchor { said_by: "gnomon", at: point, north_rad: Some(0.0) }, note))
 }
 
-/// Where the file's own zero stands, by the anchor that counts.
+/// Where the file's own origin lies, by the anchor that is used.
 fn zero(reference: &Reference) -> Option<Anchor> {
     let Reference::Anchor(zero) = reference else { return None };
     let north_rad = true_north(zero);

@@ -1,38 +1,38 @@
-//! What a site file says of where a model stands, and the models that stand by that alone.
+//! What a site file says about where a model stands; and models that only it places.
 
 use super::file::Names;
 use crate::formats::{Model, ReadOptions, SceneName, Up};
 use glam::{DAffine3, DMat3, DVec3};
 use rayon::prelude::*;
 
-/// How a model is read, and where it stands: it is scaled, turned, then moved.
+/// How a model is read and where it stands. It is scaled, then turned, then moved.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Placement {
     /// The scene; by default the file's default scene.
     pub scene: Option<SceneName>,
-    /// Metres from the ground to the roof of a footprint whose file says no height.
+    /// The height of a footprint whose file gives none, metres.
     pub default_height_m: Option<f64>,
-    /// The greatest distance of a thinned terrain from its heights, metres.
+    /// The greatest error of a thinned terrain, metres.
     pub terrain_error_m: Option<f64>,
     /// The classes of measured points that are read besides the ground.
     pub point_classes: Vec<String>,
-    /// Which parts of the file are read; all where none are said.
+    /// The parts of the file that are read; by default all.
     pub layers: Option<Names>,
-    /// Which of the model's axes is up; as its file or format says where none is said.
+    /// The model's up axis; by default the file's or the format's.
     pub up: Option<Up>,
-    /// Radians clockwise from the model's north (−Z if its y is up, +Y if its z is) to true north; the model is turned
+    /// Radians clockwise from the model's north (−Z if it is y up, +Y if it is z up) to true north. The model is turned
     /// by that angle the other way. By default the file's, otherwise 0.
     pub north_rad: Option<f64>,
-    /// Metres east, north and up. By default where the file says, otherwise at the place.
+    /// Metres east, north and up. By default as the file says, otherwise at the place.
     pub position: Option<DVec3>,
-    /// Metres per model unit, above zero; by default the file's, otherwise 1.
+    /// Metres per model unit, above 0; by default the file's, otherwise 1.
     pub scale: Option<f64>,
     /// The reference system of its coordinates; by default the file's.
     pub crs: Option<String>,
 }
 
 impl Placement {
-    /// The options for the reader.
+    /// The options for reading its file.
     pub fn read_options(&self) -> ReadOptions {
         ReadOptions {
             scene: self.scene.clone(),
@@ -43,13 +43,13 @@ impl Placement {
         }
     }
 
-    /// Places a model by these values alone, whatever its file says of the Earth: positions and steps become metres in
-    /// the world frame.
+    /// Places a model by these values alone, whatever its file says about its place on Earth. Positions and steps
+    /// become metres in the world frame.
     pub fn place(&self, model: Model) -> Model {
         self.place_at(model, self.north_rad.unwrap_or_default(), self.position.unwrap_or_default())
     }
 
-    /// The same with a north and a position that come from elsewhere, too.
+    /// The same, with north and position from another source.
     pub(super) fn place_at(&self, mut model: Model, north_rad: f64, position: DVec3) -> Model {
         let scale = self.unit_m(&model);
         let turned = DMat3::from_rotation_z(north_rad);
@@ -62,13 +62,13 @@ impl Placement {
         model
     }
 
-    /// Metres of a model's unit.
+    /// The length of a model's unit, metres.
     pub(super) fn unit_m(&self, model: &Model) -> f64 {
         self.scale.or(model.unit_m).unwrap_or(1.0)
     }
 
-    /// A model that is y up has its north at −z: (x, y, z) becomes (x, −z, y). A model that is z up has the world's
-    /// axes.
+    /// The rotation to z up. A y-up model has its north at −z: (x, y, z) becomes (x, −z, y). A z-up model already has
+    /// the world's axes.
     pub(super) fn upright(&self, model: &Model) -> DMat3 {
         match self.up.unwrap_or(model.up) {
             Up::Y => DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y),

@@ -7,17 +7,17 @@ use crate::message::{Field, Message, message};
 use crate::view::Grid;
 use glam::DVec2;
 
-/// The smallest cell, metres: a receiver is judged a millimetre above itself, and models are no finer either.
+/// The least side of a cell, metres: receivers are judged a millimetre above themselves, and models are no finer.
 const LEAST_CELL_M: f64 = 0.001;
 
-/// Cells along the longer side where nobody says, or fewer where cells would be smaller than the smallest.
+/// The default number of cells along the longer side; fewer if cells would be too small.
 const DEFAULT_SIZE: u32 = 2048;
-/// A raster of floats would take 8 GiB.
+/// As floats, this many cells take 8 GiB.
 const MOST_CELLS: f64 = 2_147_483_648.0;
-/// Of the region's longer side, around what it has to hold.
+/// The margin around the contents, as a share of the region's longer side.
 const MARGIN: f64 = 0.02;
 
-/// The grid: the asked region, or the one around `models_and_shadows` (south-west and north-east corner).
+/// The grid of the requested region, or of the one around `models_and_shadows` (south-west and north-east corner).
 pub(super) fn grid(
     written: &WrittenSite,
     asked: &Overrides,
@@ -29,24 +29,23 @@ pub(super) fn grid(
     check_cell(cell, sides).map_err(|message| refuse(at, message))?;
     let [width, height] = counts(cell, sides);
     Ok(Grid {
-        // −0 is 0
+        // turns −0 into 0
         west: west + 0.0,
         north: north + 0.0,
         cell,
-        // Checked above: at most 2³¹.
+        // cannot overflow: checked to be at most 2³¹
         width: width as u32,
         height: height as u32,
     })
 }
 
-/// The side of a cell as asked, or as it follows from how many are asked along the longer side of the region; and where
-/// that was said.
+/// The side of a cell as requested, directly or as a number of cells along the longer side; and where it was given.
 fn cell(written: &WrittenSite, asked: &Overrides, longer: f64) -> Result<(f64, FieldLocation), SiteError> {
     Ok(match (asked.cell, asked.size, written.site.plan.cell) {
         (Some(_), Some(_), _) => {
             return Err(refuse(
                 FieldLocation::Field(Field::Size),
-                message!["says the cells' size once more beside ", Field::Cell; "leave one of the two out"],
+                message!["sets the cells' size again beside ", Field::Cell; "leave one of the two out"],
             ));
         }
         (Some(cell), None, _) => (cell, FieldLocation::Field(Field::Cell)),
@@ -54,7 +53,7 @@ fn cell(written: &WrittenSite, asked: &Overrides, longer: f64) -> Result<(f64, F
             return Err(refuse(
                 FieldLocation::Field(Field::Size),
                 message![
-                    "no cells at all";
+                    "it is 0";
                     "write how many lie along the longer side, for example ", (Field::Size, "2048")
                 ],
             ));
@@ -65,21 +64,21 @@ fn cell(written: &WrittenSite, asked: &Overrides, longer: f64) -> Result<(f64, F
     })
 }
 
-/// How many cells lie along the sides of a region, metres.
+/// The number of cells along the sides of a region, metres.
 fn counts(cell: f64, sides: [f64; 2]) -> [f64; 2] {
     sides.map(|side: f64| (side / cell).round().max(1.0))
 }
 
-/// Returns an error if cells of such a side are none, too many for a region of such sides, or too small.
+/// Refuses cells without a size, too many for the region, or too small.
 fn check_cell(cell: f64, sides: [f64; 2]) -> Result<(), Message> {
-    // A NaN is not above zero either.
+    // true for NaN
     if !(cell.is_finite() && cell > 0.0) {
-        return Err(message![format!("{cell} is no side of a cell"); "write metres above 0, for example 0.5"]);
+        return Err(message![format!("{cell} is not the side of a cell"); "write metres above 0, for example 0.5"]);
     }
     let [width, height] = counts(cell, sides);
     if width * height > MOST_CELLS {
         let least = (sides[0] * sides[1] / MOST_CELLS).sqrt().max(sides[0].max(sides[1]) / MOST_CELLS);
-        // Up to the next millimetre, so that the advice holds.
+        // rounded up, so that the advice works
         let least = (least * 1000.0).ceil() / 1000.0;
         return Err(message![
             format!("{width} × {height} cells are more than 2³¹");
@@ -95,24 +94,27 @@ fn check_cell(cell: f64, sides: [f64; 2]) -> Result<(), Message> {
     Ok(())
 }
 
-/// Returns an error if a grid that is given cannot be a plan.
+/// Refuses a grid that cannot be a plan.
 pub(super) fn check(grid: &Grid) -> Result<(), SiteError> {
     let Grid { west, north, cell, width, height } = *grid;
     let cells = f64::from(width) * f64::from(height);
     if !(1.0..=MOST_CELLS).contains(&cells) {
-        let what = format!("{width} × {height} cells are no plan");
+        let what = format!("{width} × {height} cells cannot be a plan");
         return Err(refuse(
             FieldLocation::Field(Field::Size),
             message![what; "take at least one cell, and at most 2³¹"],
         ));
     }
-    // A NaN is not that large either.
+    // true for NaN
     if !(cell.is_finite() && cell >= LEAST_CELL_M) {
         let hint = format!("take metres, at least {LEAST_CELL_M}");
-        return Err(refuse(FieldLocation::Field(Field::Cell), message![format!("{cell} is no side of a cell"); hint]));
+        return Err(refuse(
+            FieldLocation::Field(Field::Cell),
+            message![format!("{cell} is not the side of a cell"); hint],
+        ));
     }
     if !(west.is_finite() && north.is_finite()) {
-        let what = format!("({west}, {north}) is no north-west corner");
+        let what = format!("({west}, {north}) is not a north-west corner");
         return Err(refuse(FieldLocation::Field(Field::Region), message![what; "give metres from the place"]));
     }
     Ok(())
@@ -146,7 +148,7 @@ fn region(
     Ok(region)
 }
 
-/// A rectangle with some air around it, and never without area.
+/// A rectangle with a margin, and never without area.
 fn around([low, high]: [DVec2; 2]) -> [f64; 4] {
     let margin = ((high - low).max_element() * MARGIN).max(0.5);
     [low.x - margin, low.y - margin, high.x + margin, high.y + margin]

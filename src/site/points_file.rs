@@ -1,4 +1,4 @@
-//! Points from a table: CSV whose first line names its columns.
+//! Reads points from a CSV table whose first line names the columns.
 
 use super::error::{FieldLocation, SiteError};
 use super::overrides::refuse;
@@ -10,31 +10,31 @@ use rustc_hash::FxHashSet;
 use std::io::Read;
 use std::path::Path;
 
-/// No longer is a table, bytes.
+/// The largest table, bytes.
 const MOST_BYTES: u64 = 64 << 20;
 
-/// The columns, the last three of which may be absent.
+/// The columns; the last three may be absent.
 const COLUMNS: [&str; 7] = ["name", "x", "y", "z", "nx", "ny", "nz"];
 
-/// No more points are asked at once.
+/// The most points of a request.
 pub(super) const MOST_PROBES: usize = 100_000;
 
-/// A normal's direction, whatever its length.
+/// A normal as a unit vector.
 pub(super) fn unit(normal: [f64; 3], at: impl Fn() -> FieldLocation) -> Result<DVec3, SiteError> {
     let normal = DVec3::from_array(normal);
-    // Brought near 1 first, so that no square overflows.
+    // Scaled near 1 first, so that no square overflows.
     let unit = (normal / normal.abs().max_element()).normalize();
     if unit.is_finite() {
         return Ok(unit);
     }
-    let what = format!("{normal} is no direction");
+    let what = format!("{normal} is not a direction");
     Err(refuse(at(), message![what; "write one of any length but 0, for example [0, -1, 0]"]))
 }
 
-/// The points of a file.
+/// Reads the points of a file.
 ///
 /// # Errors
-/// What cannot be read, and the first line that is wrong.
+/// A file that cannot be read, or the first line that is wrong.
 pub(super) fn read(path: &Path) -> Result<Vec<Probe>, SiteError> {
     let file = path.display().to_string();
     let unreadable = |why: String| SiteError::Unreadable { path: file.clone(), why };
@@ -52,7 +52,6 @@ pub(super) fn read(path: &Path) -> Result<Vec<Probe>, SiteError> {
     points(&file, text.trim_start_matches('\u{feff}'))
 }
 
-/// The points of a table's text.
 fn points(file: &str, text: &str) -> Result<Vec<Probe>, SiteError> {
     let at =
         |line: usize| FieldLocation::Key { file: file.to_owned(), table: format!("line {line}"), key: String::new() };
@@ -79,7 +78,7 @@ fn points(file: &str, text: &str) -> Result<Vec<Probe>, SiteError> {
         let probe = point(&fields, probes.len() + 1, &at(line))?;
         if !names.insert(composed(&probe.name).into_owned()) {
             let what = format!("\"{}\" is the name of another point, too", probe.name);
-            return Err(refuse(at(line), message![what; "name each otherwise"]));
+            return Err(refuse(at(line), message![what; "give each its own name"]));
         }
         if probes.len() == MOST_PROBES {
             return Err(refuse(
@@ -98,12 +97,11 @@ fn points(file: &str, text: &str) -> Result<Vec<Probe>, SiteError> {
     Ok(probes)
 }
 
-/// The point of a line.
 fn point(fields: &[String], number: usize, at: &FieldLocation) -> Result<Probe, SiteError> {
     let number_of = |column: usize| {
         let text = fields[column].trim();
         text.parse::<f64>().ok().filter(|number| number.is_finite()).ok_or_else(|| {
-            let what = format!("{} is \"{text}\" and no number", COLUMNS[column]);
+            let what = format!("{} is \"{text}\", which is not a number", COLUMNS[column]);
             refuse(at.clone(), message![what; "write metres, for example 12.5"])
         })
     };
@@ -120,14 +118,14 @@ fn point(fields: &[String], number: usize, at: &FieldLocation) -> Result<Probe, 
     Ok(Probe { name, point, normal })
 }
 
-/// The lines of a table as RFC 4180 has them: a field in quotes may hold commas, line breaks, and quotes twice.
+/// The lines of a table as defined in RFC 4180: a field in quotes may contain commas, line breaks, and doubled quotes.
 struct TableLines<'a> {
     rest: &'a str,
     line: usize,
 }
 
 impl TableLines<'_> {
-    /// The next line's number and fields; no fields where a quote has no end.
+    /// The next line's number and fields; `None` for the fields if a quote is not closed.
     fn next(&mut self) -> Option<(usize, Option<Vec<String>>)> {
         if self.rest.is_empty() {
             return None;

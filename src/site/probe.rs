@@ -1,4 +1,4 @@
-//! The request for probes: which points, on which days.
+//! The request for probes: the points and the days.
 
 use super::dates::{date_of, of_each_day, several};
 use super::error::{FieldLocation, SiteError};
@@ -30,29 +30,29 @@ pub struct ProbeSite {
     pub place: Place,
     /// All models, welded, in the world frame.
     pub mesh: Mesh,
-    /// What the user should know of how the models were read, as [`super::Site::notes`].
+    /// Notes on how the models were read, as in [`super::Site::notes`].
     pub notes: Vec<Message>,
-    /// As [`super::Site::words`].
+    /// As in [`super::Site::words`].
     pub words: &'static dyn Words,
     /// For each component, whether it casts.
     pub casts: Vec<bool>,
     /// The ground.
     pub ground: Ground,
-    /// The points, each with its own name; at least one, or one of `laid`.
+    /// The points; no two have the same name. There is at least one here or in `laid`.
     pub probes: Vec<Probe>,
-    /// Points that the program lays, each with what may be its outer side: of several the study takes the one that is more
-    /// open to the sky.
+    /// Points that the program lays. Each has up to two candidates for its outer side, of which the study takes the one
+    /// that is more open to the sky.
     pub laid: Vec<Vec<Probe>>,
-    /// The days in their order, at least one, each with the requested part of it.
+    /// The days in order, at least one, each with the requested part of it.
     pub days: Vec<DayWindow>,
     /// Whether directions include atmospheric refraction.
     pub refraction: bool,
 }
 
-/// Reads and checks a request for probes. Of the study only the date is used, and only if the face sets none.
+/// Reads and checks a request for probes. The study's date is used if the face sets none; nothing else of the study is.
 ///
 /// # Errors
-/// Everything that can be wrong with it, each naming the file, the key or option, and a hint.
+/// Anything wrong with it. Each error names the file and the key or option, and has a hint.
 pub fn load_probes(path: &Path, asked: &Overrides) -> Result<ProbeSite, SiteError> {
     let as_written = WrittenSite::read(path, asked)?;
     let (written, models) =
@@ -70,7 +70,7 @@ pub fn load_probes(path: &Path, asked: &Overrides) -> Result<ProbeSite, SiteErro
     let laid = laid(&mesh, asked, ground.level, &probes)?;
     check_count(asked, probes.len() + laid.len(), days.len())?;
     notes.extend((!laid.is_empty()).then(|| Message::from(format!("{} points are laid on components", laid.len()))));
-    // a probe below it says so itself
+    // a probe below the ground has its own note
     notes.extend(ground.notes(&mesh, &receives, Receivers::Ground));
     notes.extend(days.last().and_then(|day| Zone::doubt(&day.to)).map(Message::from));
     notes.extend(on_probes(&probes));
@@ -79,10 +79,10 @@ pub fn load_probes(path: &Path, asked: &Overrides) -> Result<ProbeSite, SiteErro
     Ok(ProbeSite { place, mesh, notes, words, casts, ground, probes, laid, days, refraction })
 }
 
-/// No more points are asked, times days: a point's day takes some 300 bytes.
+/// The most points times days: a point's day takes some 300 bytes.
 const MOST_POINT_DAYS: usize = 4_000_000;
 
-/// Errs where the answer would be too large.
+/// Refuses requests whose answer would be too large.
 fn check_count(asked: &Overrides, points: usize, days: usize) -> Result<(), SiteError> {
     let at = FieldLocation::Field(if asked.on.is_empty() { Field::Points } else { Field::On });
     if points > MOST_PROBES {
@@ -96,7 +96,7 @@ fn check_count(asked: &Overrides, points: usize, days: usize) -> Result<(), Site
     Err(refuse(at, message![what; "ask for fewer points or days at once"]))
 }
 
-/// The points that are laid on the components asked.
+/// The points laid on the requested components.
 fn laid(mesh: &Mesh, asked: &Overrides, ground: f64, beside: &[Probe]) -> Result<Vec<Vec<Probe>>, SiteError> {
     let at = |field| FieldLocation::Field(field);
     for (field, value) in [(Field::Spacing, asked.spacing), (Field::Height, asked.height)] {
@@ -113,7 +113,7 @@ fn laid(mesh: &Mesh, asked: &Overrides, ground: f64, beside: &[Probe]) -> Result
             Laying::Row { spacing, height: ground + height }
         }
         (Some(_), Some(_)) => {
-            let message = message!["is no distance between points"; "write at least 0.01 metres"];
+            let message = message!["is not a distance between points"; "write at least 0.01 metres"];
             return Err(refuse(at(Field::Spacing), message));
         }
         (Some(_), None) => {
@@ -137,19 +137,19 @@ fn laid(mesh: &Mesh, asked: &Overrides, ground: f64, beside: &[Probe]) -> Result
     Ok(laid)
 }
 
-/// The points of the command line, or else those of the file.
+/// The points that the face sets, otherwise those of the file.
 fn probes(written: &WrittenSite, asked: &Overrides) -> Result<Vec<Probe>, SiteError> {
     let is_laid = !asked.on.is_empty();
     for (field, is_asked) in [(Field::Points, asked.points.is_some()), (Field::On, is_laid)] {
         if asked.point.is_some() && is_asked {
-            let message = message!["says nothing beside ", Field::Point; "leave one of the two out"];
+            let message = message!["has no effect beside ", Field::Point; "leave one of the two out"];
             return Err(refuse(FieldLocation::Field(field), message));
         }
     }
     if let Some(point) = asked.point {
         if !point.is_finite() {
             let message =
-                message![format!("{point} is no point"); "write metres, for example ", (Field::Point, "12,-3,4.5")];
+                message![format!("{point} is not a point"); "write metres, for example ", (Field::Point, "12,-3,4.5")];
             return Err(refuse(FieldLocation::Field(Field::Point), message));
         }
         let normal = asked.normal.map(|normal| unit(normal.to_array(), || FieldLocation::Field(Field::Normal)));
@@ -172,7 +172,7 @@ fn probes(written: &WrittenSite, asked: &Overrides) -> Result<Vec<Probe>, SiteEr
     of_tables(written)
 }
 
-/// The points of the file.
+/// The points of the site file.
 fn of_tables(written: &WrittenSite) -> Result<Vec<Probe>, SiteError> {
     let mut probes: Vec<Probe> = Vec::new();
     for (index, table) in written.site.probe.iter().enumerate() {
@@ -182,7 +182,7 @@ fn of_tables(written: &WrittenSite) -> Result<Vec<Probe>, SiteError> {
         if probes.iter().any(|other| composed(&other.name) == composed(&name)) {
             return Err(refuse(
                 at("name"),
-                message![format!("\"{name}\" is the name of another probe, too"); "name each otherwise"],
+                message![format!("\"{name}\" is the name of another probe, too"); "give each its own name"],
             ));
         }
         let Some(point) = table.point.map(DVec3::from_array) else {
@@ -190,7 +190,7 @@ fn of_tables(written: &WrittenSite) -> Result<Vec<Probe>, SiteError> {
             return Err(written.missing(format!("point in {probe}"), super::keys::example("probe", "point")));
         };
         if !point.is_finite() {
-            let what = format!("{point} is no point");
+            let what = format!("{point} is not a point");
             return Err(refuse(at("point"), message![what; "write metres, for example [12.0, -3.0, 4.5]"]));
         }
         let normal = table.normal.map(|normal| unit(normal, || at("normal"))).transpose()?;
@@ -199,7 +199,7 @@ fn of_tables(written: &WrittenSite) -> Result<Vec<Probe>, SiteError> {
     Ok(probes)
 }
 
-/// The days asked, each with the part of it that is.
+/// The requested days, each with its part.
 fn days(place: &Place, written: &WrittenSite, asked: &Overrides) -> Result<Vec<DayWindow>, SiteError> {
     let reading = |field, set: &Option<Reading>| {
         set.clone().map(|reading| of_each_day(reading, || FieldLocation::Field(field))).transpose()
@@ -222,7 +222,7 @@ fn days(place: &Place, written: &WrittenSite, asked: &Overrides) -> Result<Vec<D
         .collect()
 }
 
-/// One date, of the command line or of the study, or a range of them, and where they are asked.
+/// The requested dates: one date or a range, of the face or of the study; and where they were given.
 fn dates(written: &WrittenSite, asked: &Overrides) -> Result<(Vec<NaiveDate>, FieldLocation), SiteError> {
     if let Some(dates) = several(written, asked)? {
         return Ok(dates);
@@ -235,7 +235,7 @@ fn dates(written: &WrittenSite, asked: &Overrides) -> Result<(Vec<NaiveDate>, Fi
     if let Some(date) = &study.date {
         return Ok((vec![date_of(&date.0, at("date"))?], at("date")));
     }
-    // A study without a date has one in its beginning.
+    // a study without `date` may have the date in `from`
     let own = study.from.as_ref().and_then(|from| from.0.parse::<Reading>().ok()?.date);
     Ok((vec![own.ok_or_else(|| no_study(written, [false, true, true, true]))?], at("from")))
 }

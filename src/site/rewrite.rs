@@ -1,4 +1,4 @@
-//! Rewrites a site file's text: replaces what has changed, and leaves everything else as a person wrote it.
+//! Rewrites a site file's text: replaces what has changed, and keeps everything else as it was written.
 
 use super::error::SiteError;
 use super::file::SiteFile;
@@ -6,13 +6,13 @@ use toml::{Table, Value};
 use toml_edit::{ArrayOfTables, DocumentMut, Item, TableLike};
 
 impl SiteFile {
-    /// A text that reads as this site file and keeps the comments, order and spelling of another site file's text.
+    /// Writes this site file into the text of another one, and keeps the comments, order and spelling of that text.
     ///
-    /// What both say alike is left alone, however it is spelt; a comment goes only with the line that it stands on or above,
-    /// where that is no longer said.
+    /// Values that both have stay as they are written. A comment disappears only together with the line that it is on
+    /// or above.
     ///
     /// # Errors
-    /// A text that is no site file, and what TOML cannot hold.
+    /// A text that is not a site file, or a value that TOML cannot represent.
     pub fn to_toml_in(&self, text: &str) -> Result<String, SiteError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let unwritable = |what: String| SiteError::Unwritable { what };
@@ -33,18 +33,18 @@ impl SiteFile {
 }
 
 impl SiteFile {
-    /// Says above a new [place] which file it is from.
+    /// Writes a comment above a new `[place]` that names the file it is from.
     fn note_source(&self, document: &mut DocumentMut) {
         let said = self.place.as_ref().and_then(|place| place.said_by());
         let table = document.get_mut("place").and_then(Item::as_table_mut);
         if let (Some(said), Some(table)) = (said, table) {
-            // a file's name may have a line break
+            // a file's name may contain a line break
             let said = said.replace(char::is_control, " ");
             table.decor_mut().set_prefix(format!("\n# from {said}\n"));
         }
     }
 
-    /// Says behind a new elevation which file it is from.
+    /// Writes a comment after a new elevation that names the file it is from.
     fn note_elevation(&self, document: &mut DocumentMut) {
         let said = self.place.as_ref().and_then(|place| place.elevation_said_by());
         let value = document.get_mut("place").and_then(|place| place.get_mut("elevation")).and_then(Item::as_value_mut);
@@ -54,7 +54,7 @@ impl SiteFile {
     }
 }
 
-/// Writes into a table what differs between the two.
+/// Writes the differences between two tables into the text's table.
 fn merge(into: &mut dyn TableLike, before: &Table, after: &Table) -> Result<(), String> {
     for key in before.keys().filter(|key| !after.contains_key(*key)) {
         into.remove(key);
@@ -67,7 +67,7 @@ fn merge(into: &mut dyn TableLike, before: &Table, after: &Table) -> Result<(), 
         match value {
             Value::Table(after) => {
                 let item = into.entry(key).or_insert_with(toml_edit::table);
-                let Some(table) = item.as_table_like_mut() else { return Err(format!("{key} is no table")) };
+                let Some(table) = item.as_table_like_mut() else { return Err(format!("{key} is not a table")) };
                 merge(table, old.and_then(Value::as_table).unwrap_or(&Table::new()), after)?;
             }
             Value::Array(after) if after.first().is_some_and(Value::is_table) => {
@@ -79,7 +79,7 @@ fn merge(into: &mut dyn TableLike, before: &Table, after: &Table) -> Result<(), 
                     value.to_string().parse().map_err(|error: toml_edit::TomlError| error.to_string())?;
                 match into.get_mut(key) {
                     Some(item) => {
-                        // what stands behind it on its line
+                        // keeps the comment on the same line
                         if let Some(old) = item.as_value() {
                             *new.decor_mut() = old.decor().clone();
                         }
@@ -93,14 +93,14 @@ fn merge(into: &mut dyn TableLike, before: &Table, after: &Table) -> Result<(), 
     Ok(())
 }
 
-/// The same for `[[model]]` and `[[probe]]`, one after the other.
+/// The same for the tables of a list, `[[model]]` and `[[probe]]`, one after the other.
 fn merge_list(item: &mut Item, before: &[Value], after: &[Value]) -> Result<(), String> {
-    // a list in one line is written as tables, which it reads as
+    // an inline list is rewritten as tables, which mean the same
     if !item.is_array_of_tables() {
         let list = std::mem::take(item).into_array_of_tables().unwrap_or_else(|_| ArrayOfTables::new());
         *item = Item::ArrayOfTables(list);
     }
-    let Some(list) = item.as_array_of_tables_mut() else { return Err("no list of tables".to_owned()) };
+    let Some(list) = item.as_array_of_tables_mut() else { return Err("not a list of tables".to_owned()) };
     while list.len() > after.len() {
         list.remove(list.len() - 1);
     }

@@ -1,4 +1,4 @@
-//! A model, and what is said of its place → the model where it stands, in the frame of the site.
+//! Puts a model where it stands in the frame of the site, given what is said about its place.
 
 use super::anchored_zero::{AnchoredNorth, AnchoredZero, true_north};
 use super::georeference::{Georeference, Reference, StandFault};
@@ -11,41 +11,40 @@ use crate::message::{Message, message, set_to, setting};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 
-/// A geographic anchor farther from the place than this contradicts it, metres.
+/// An anchor farther from the place than this contradicts it, metres.
 pub(super) const FAR_M: f64 = 20_000.0;
 
-/// True norths of two places that differ by less are one: what is shown with two decimals.
+/// True norths that differ by less are the same: the precision with which they are shown.
 pub(super) const ONE_MERIDIAN_RAD: f64 = 0.005 * std::f64::consts::PI / 180.0;
 
-/// The site's frame, and whether somebody wrote how high it lies.
+/// The site's frame, and whether its height was given.
 #[derive(Clone, Debug)]
 pub(super) struct SiteFrame {
     pub(super) local: LocalFrame,
     pub(super) has_elevation: bool,
-    /// What of a model the place is, where its file says the place: "the middle of town.city.json".
+    /// What the place is, if a model's file proposed it, such as "the middle of town.city.json".
     pub(super) is_of: Option<String>,
 }
 
-/// A model in the world frame.
 pub(super) struct StandingModel {
     pub(super) model: Model,
-    /// How it was turned and moved, radians and metres; none where its corners were converted one by one.
+    /// How it was turned and moved, radians and metres; 0 if its corners were converted one by one.
     pub(super) north_rad: f64,
     pub(super) position: DVec3,
-    /// Whether it stands by what is said of the Earth, so that another place has it elsewhere.
+    /// Whether it is placed on Earth, so that it moves if the place changes.
     pub(super) is_on_earth: bool,
-    /// Whether its corners were converted one by one, from a map.
+    /// Whether its corners were converted one by one from a map.
     pub(super) is_of_map: bool,
-    /// Whether it stands at the very place that its file or `crs` says.
+    /// Whether it stands exactly where its file or `crs` says.
     pub(super) is_where_said: bool,
-    /// What should be known of where it stands, each with the model for its subject.
+    /// Notes on where it stands, with the model as the subject.
     pub(super) notes: Vec<Message>,
 }
 
-/// Puts a model where it stands. Without a frame nobody knows the place, and the site file alone counts.
+/// Puts a model where it stands. Without a frame there is no place, and only the site file counts.
 ///
 /// # Errors
-/// A model that cannot stand where it is said, with the key that helps.
+/// A model that cannot stand where it is said to stand, with the key that helps.
 pub(super) fn stand(
     model: Model,
     placement: &Placement,
@@ -100,21 +99,21 @@ pub(super) fn stand(
     }
 }
 
-/// That terrain, which always is of some map, does not say of which one.
+/// A note if terrain, whose coordinates are always in some map, does not say in which.
 fn note_no_map(model: &Model, placement: &Placement) -> Option<Message> {
     let is_terrain = model.kinds.contains(&PartKind::Terrain);
     let is_placed = placement.position.is_some() || placement.crs.is_some();
     let crs = || set_to("[[model]]", "crs", "EPSG:…".to_owned(), "`crs = \"EPSG:…\"` under [[model]]".to_owned());
     (is_terrain && !is_placed).then(|| {
         message![
-            "does not say of which map its coordinates are, so they are taken as metres from the place";
+            "does not say in which map its coordinates are, so they are taken as metres from the place";
             "write ", crs()
         ]
     })
 }
 
-/// That nobody says where a model stands, though the place is only what another one's file says: nobody has chosen the
-/// point at which both meet.
+/// A note if nothing gives a model's place, and the site's place is only proposed by another model's file, so that
+/// nobody has chosen the point at which both meet.
 fn note_unplaced(model: &Model, placement: &Placement, frame: &SiteFrame, is_turned: bool) -> Option<Message> {
     let is_terrain = model.kinds.contains(&PartKind::Terrain);
     let of = frame.is_of.as_ref().filter(|_| placement.position.is_none() && !is_terrain)?;
@@ -124,13 +123,13 @@ fn note_unplaced(model: &Model, placement: &Placement, frame: &SiteFrame, is_tur
     };
     let turned = if is_turned { String::new() } else { format!(", with its {axis} to the north") };
     Some(message![
-        format!("says no place: its zero stands at {of}{turned}");
+        format!("gives no place: its zero stands at {of}{turned}");
         "if it stands elsewhere, write ", setting("[[model]]", "position", "`position`"), " and ",
         setting("[[model]]", "north", "`north` under [[model]]")
     ])
 }
 
-/// Every corner from a map into the frame.
+/// Converts every corner from a map to the frame.
 fn converted(
     mut model: Model,
     crs: &Crs,
@@ -147,11 +146,11 @@ fn converted(
         let is_from_ground = from_ground.get(index).copied().unwrap_or_default();
         let heights = is_from_ground.then(|| part.positions.iter().map(|corner| corner.z).collect::<Vec<_>>());
         to.convert(&mut part.positions).map_err(|index| {
-            // what cannot be converted is still what it was
+            // for the error: the corner that cannot be converted
             let at = part.positions.get(index).copied().unwrap_or_default();
             StandFault::of_crs(placement, out_of_reach(&part.name, crs, at, frame))
         })?;
-        // from the ground, and not from the level of the sea
+        // measured from the ground, not from sea level
         part.positions
             .iter_mut()
             .zip(heights.unwrap_or_default())
@@ -164,7 +163,7 @@ fn converted(
     Ok(model)
 }
 
-/// That a corner of a map lies where the map does not reach, or too far from the place; with what is where.
+/// The error for a corner that lies outside of its map or too far from the place; it says what lies where.
 fn out_of_reach(part: &str, crs: &Crs, at: DVec3, frame: &SiteFrame) -> Message {
     let crs_key = || setting("[[model]]", "crs", "`crs` under [[model]]");
     let Some(there) = crs.to_wgs84(at) else {
@@ -175,7 +174,7 @@ fn out_of_reach(part: &str, crs: &Crs, at: DVec3, frame: &SiteFrame) -> Message 
     };
     let away = frame.local.distance_m(there).unwrap_or(f64::INFINITY);
     let what = format!(
-        "has '{part}' at {}, {} in {}: that is {}, {} from the place at {}, and models stand within {} of that",
+        "has '{part}' at {}, {} in {}: that is {}, {} from the place at {}, and models must stand within {} of it",
         at.x,
         at.y,
         crs.name(),
@@ -194,15 +193,15 @@ fn out_of_reach(part: &str, crs: &Crs, at: DVec3, frame: &SiteFrame) -> Message 
 /// Where a model with an anchor stands.
 struct AnchoredPosition {
     position: DVec3,
-    /// By how much it is turned.
+    /// The angle by which it is turned.
     north_rad: f64,
     /// Whether it stands where its anchor says.
     is_where_said: bool,
-    /// What is to be said of it.
+    /// The note about it.
     note: Option<Message>,
 }
 
-/// Where a zero stands in the frame.
+/// Where an anchored origin lies in the frame.
 fn anchored(
     zero: &AnchoredZero,
     said_by: &str,
@@ -214,7 +213,7 @@ fn anchored(
         let position = placement.position.unwrap_or_default();
         return Ok(AnchoredPosition { position, north_rad, is_where_said: false, note });
     };
-    // without a height the zero lies as high as the place
+    // without a height the origin is at the place's elevation
     let place_height = frame.local.elevation_m();
     let at = if zero.has_height { at } else { GeodeticPoint { height_m: place_height, ..at } };
     let there = frame.local.point(at);
@@ -225,10 +224,10 @@ fn anchored(
         let what = format!("by its {said_by} it stands at {}, {} from the place", degrees(at), length(away));
         return Err(StandFault::Key(
             "position",
-            message![what; "write position = [0.0, 0.0, 0.0] to have its zero at the place, or correct [place]"],
+            message![what; "write position = [0.0, 0.0, 0.0] to put its zero at the place, or correct [place]"],
         ));
     };
-    // a building that is moved keeps its true north, and not that of where its anchor lies
+    // a building that is moved keeps its true north, not the north at its anchor
     let moved_to = match placement.position {
         Some(position) => Some(frame.local.on_earth(position)),
         None => is_elsewhere.then(|| Some(frame.local.place())),
@@ -262,7 +261,7 @@ fn anchored(
     Ok(AnchoredPosition { position, north_rad: north, is_where_said, note })
 }
 
-/// Where a model stands, beside what its anchor says; empty where both are one.
+/// A clause on where a model stands compared with its anchor; empty if both are the same.
 fn stands_where(
     zero: &AnchoredZero,
     said_by: &str,
@@ -288,7 +287,7 @@ fn stands_where(
     }
 }
 
-/// Radians clockwise from the model's north to the frame's, as an anchor says it, by the meridian of where it stands.
+/// Radians clockwise from the model's north to the frame's by an anchor, with the meridian of where the model stands.
 fn north_by_anchor(zero: &AnchoredZero, is_moved: bool, meridian: f64, frame: &SiteFrame) -> Option<f64> {
     match (zero.north?, &zero.on_map) {
         (AnchoredNorth::Map(north), Some((crs, on_map))) if !is_moved => {
@@ -298,7 +297,7 @@ fn north_by_anchor(zero: &AnchoredZero, is_moved: bool, meridian: f64, frame: &S
     }
 }
 
-/// The north by which it is turned, and what of it is the map's, and the meridian's.
+/// A clause on the north by which it is turned, with the parts that are the map's convergence and the meridian's.
 fn own_north(zero: &AnchoredZero, by_anchor: f64, meridian: Option<f64>) -> String {
     let convergence = zero.on_map.as_ref().and_then(|(crs, at)| crs.convergence_rad(at.x, at.y));
     let mut said = format!("its north is {}", angle(by_anchor));
@@ -311,7 +310,7 @@ fn own_north(zero: &AnchoredZero, by_anchor: f64, meridian: Option<f64>) -> Stri
     said
 }
 
-/// The north of a model whose file says no place.
+/// The north of a model whose file gives no place.
 fn turned_alone(zero: &AnchoredZero, said_by: &str, placement: &Placement) -> (f64, Option<Message>) {
     let by_anchor = true_north(zero).unwrap_or_default();
     let north = placement.north_rad.unwrap_or(by_anchor);
@@ -330,20 +329,20 @@ fn said_north(said_by: &str, by_anchor: f64, north: f64) -> String {
     format!("north is {} by `north`, and {} by its {said_by}", angle(north), angle(by_anchor))
 }
 
-/// A clause if a model whose position nobody wrote lies far above or below a place whose elevation nobody wrote.
+/// A clause if a model without a written position lies far above or below a place without a written elevation.
 fn no_elevation(above_m: f64, placement: &Placement, frame: &SiteFrame) -> Option<String> {
     let is_written = placement.position.is_some() || frame.has_elevation;
     (!is_written && above_m.abs() > ONE_PLACE_M).then(|| {
         let side = if above_m > 0.0 { "above" } else { "below" };
         format!(
-            "it lies {} {side} the place, as [place] says no elevation; `elevation = {:.0}` there would have it at 0",
+            "it lies {} {side} the place, as [place] has no elevation; `elevation = {:.0}` there would put it at 0",
             length(above_m.abs()),
             frame.local.elevation_m() + above_m
         )
     })
 }
 
-/// Where a model of a map stands.
+/// A note on where a model in a map stands.
 fn note_map(model: &Model, crs: &Crs, said_by: &str, placement: &Placement, frame: &SiteFrame) -> Option<Message> {
     let [low, high] = bounds(model, |corner| corner)?;
     let middle = (low + high) / 2.0;
@@ -358,22 +357,22 @@ fn note_map(model: &Model, crs: &Crs, said_by: &str, placement: &Placement, fram
     Some(message![said; setting("[[model]]", "crs", "`crs` under [[model]]"), " changes it"])
 }
 
-/// A place that a model's file proposes: a point, and its elevation where the file says one.
+/// A place that a model's file proposes: a point, and its elevation if the file gives one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ProposedPoint {
     pub(super) at: GeodeticPoint,
     pub(super) has_elevation: bool,
 }
 
-/// Where a model stands on Earth, rounded as it is written into a site file: the zero of one with an anchor, and the middle
-/// of one in a map's coordinates, at its lowest point.
+/// Where a model stands on Earth, rounded for a site file: the origin of an anchored one, and the middle at the lowest
+/// point for one in map coordinates.
 pub(super) fn proposal(model: &Model, said: &Georeference) -> Option<ProposedPoint> {
     let rounded = |value: f64, digits: i32| (value * 10f64.powi(digits)).round() / 10f64.powi(digits);
     let (at, has_elevation, digits) = match &said.reference {
         Reference::Placement => return None,
         Reference::Anchor(zero) => (zero.at?, zero.has_height, 8),
         Reference::Map { crs, map_from_model, .. } => {
-            // heights above the ground say nothing of the sea
+            // heights above the ground say nothing about the sea
             (middle(model, crs, *map_from_model)?, !model.stands_on_ground(), 6)
         }
     };
@@ -382,16 +381,16 @@ pub(super) fn proposal(model: &Model, said: &Georeference) -> Option<ProposedPoi
         longitude_deg: rounded(at.longitude_deg, digits),
         height_m: rounded(at.height_m, 2),
     };
-    // what no place can have is not proposed
+    // an impossible elevation is not proposed
     let has_elevation = has_elevation && (-500.0..=9000.0).contains(&at.height_m);
     Some(ProposedPoint { at, has_elevation })
 }
 
-/// The middle of a box around a model, in the units of its map; its height is the lowest.
+/// The middle of a model's box in its map's units, at its lowest height.
 pub(super) fn map_middle(model: &Model, crs: &Crs, map_from_model: DAffine3) -> Option<DVec3> {
     let of_map = |corner: DVec3| map_from_model.transform_point3(corner);
     let [mut low, mut high] = bounds(model, of_map)?;
-    // what lies on both sides of the meridian of 180° is not as wide as the Earth
+    // a box across the meridian of 180° is not as wide as the Earth
     if crs.kind() == CrsKind::Geographic && high.x - low.x > 180.0 {
         let eastward = |corner: DVec3| of_map(corner).with_x(of_map(corner).x.rem_euclid(360.0));
         let [west, east] = bounds(model, eastward)?;
@@ -407,13 +406,13 @@ fn middle(model: &Model, crs: &Crs, map_from_model: DAffine3) -> Option<Geodetic
     if crs.kind() == CrsKind::EarthCentred {
         let [low, high] = bounds(model, of_map)?;
         let at = crs.to_wgs84((low + high) / 2.0)?;
-        // of heights only the lowest counts
+        // only the lowest height counts
         let height = |corner: DVec3| DVec3::splat(crs.to_wgs84(of_map(corner)).map_or(f64::INFINITY, |at| at.height_m));
         let [lowest, _] = bounds(model, height)?;
         return Some(GeodeticPoint { height_m: lowest.z.floor(), ..at });
     }
     let at = map_middle(model, crs, map_from_model)?;
-    // heights above the ground say nothing of the sea
+    // heights above the ground say nothing about the sea
     let of_sea = model.parts.iter().enumerate().filter(|(part, _)| !model.is_from_ground(*part));
     let heights = of_sea.flat_map(|(_, part)| &part.positions).map(|corner| of_map(*corner).z);
     let lowest = if model.from_ground.is_empty() { None } else { heights.reduce(f64::min) };

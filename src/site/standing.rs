@@ -1,8 +1,8 @@
-//! How buildings stand on terrain: which of them float above it, and which reach below it.
+//! How buildings stand on terrain: whether they float above it or reach below it.
 //!
-//! Models and terrain come from different sources, with different zeros, and a plan does not show that a house hangs in
-//! the air. A *building* here is whatever is connected in plan and is not terrain, on a raster: its cells are those with
-//! corners or edges of faces, and those whose centres faces cover.
+//! Models and terrain come from different sources with different origins, and a plan does not show that a house floats.
+//! A *building* here is whatever is connected in plan and is not terrain. Connection is tested on a raster: a
+//! building's cells contain corners or edges of its faces, or have centres covered by its faces.
 
 use super::ground::metres;
 use super::terrain::FIRST;
@@ -11,22 +11,21 @@ use crate::mesh::scan::{by_rows, spans, wholes};
 use crate::message::{Message, message};
 use glam::{DVec2, DVec3, Vec3Swizzles as _};
 
-/// Cells along the longer side of a model's plan, at most.
+/// The most cells along the longer side of a model's plan.
 const MOST_CELLS: f64 = 512.0;
-/// Smaller ones tell nothing more, metres.
+/// The least side of a cell, metres; smaller ones would not show more.
 const LEAST_CELL_M: f64 = 0.25;
-/// What floats less high, or reaches less deep, gets no note, metres: terrain is thinned to this.
+/// The least height or depth that gets a note, metres: terrain is thinned to this.
 const TOLD_M: f64 = 0.1;
-/// Points nearer to each other in height than this are one foot, metres.
+/// Points within this height of the lowest one belong to the foot, metres.
 const LEVEL_M: f64 = 0.001;
-/// A cell under which there is no terrain.
+/// A cell without terrain.
 const NOTHING: u32 = u32::MAX;
 
-/// The faces of a mesh that are terrain.
 pub(super) struct TerrainFaces(Vec<u32>);
 
 impl TerrainFaces {
-    /// None where there is no terrain.
+    /// `None` without terrain.
     pub(super) fn of(mesh: &Mesh) -> Option<TerrainFaces> {
         let terrain = mesh.components.iter().filter(|component| component.is_terrain);
         let faces: Vec<u32> = terrain.flat_map(|component| component.faces.clone()).collect();
@@ -34,8 +33,9 @@ impl TerrainFaces {
     }
 }
 
-/// How many of a model's buildings float above the terrain, reach below it or stand beyond its edge: a sentence without its
-/// stop that begins with the model's name. `components` are those of the model that are no terrain.
+/// A note on how many of a model's buildings float above the terrain, reach below it or stand beyond its edge. It is a
+/// sentence without a full stop that begins with the model's name. `components` are those of the model that are not
+/// terrain.
 pub(super) fn note(mesh: &Mesh, terrain: &TerrainFaces, components: &[usize], model: &str) -> Option<Message> {
     let faces: Vec<u32> = components.iter().flat_map(|&at| mesh.components[at].faces.clone()).collect();
     let raster = CellRaster::around(mesh, &faces)?;
@@ -58,12 +58,12 @@ pub(super) fn note(mesh: &Mesh, terrain: &TerrainFaces, components: &[usize], mo
         let verb = verb(sunk, "reaches", "reach");
         told.push(format!("{verb} below the terrain, as cellars do, by up to {}", metres(deepest)));
     }
-    // nobody builds so, but heights that count from elsewhere look so
+    // nobody builds like this, but heights measured from elsewhere look like it
     if buried > 0 {
         let verb = verb(buried, "lies", "lie");
         told.push(format!("{verb} wholly below the terrain, down to {} below it, and cannot be seen", metres(lowest)));
     }
-    // where all stand elsewhere the terrain is of another place, or meant for one of several models
+    // if all buildings are beyond the edge, the terrain is of another place, or meant for one of several models
     if beside > 0 {
         told.push(format!("{} beyond the terrain's edge", verb(beside, "stands", "stand")));
     }
@@ -76,7 +76,7 @@ pub(super) fn note(mesh: &Mesh, terrain: &TerrainFaces, components: &[usize], mo
         (true, _) => message![what; "light falls under what floats: `position` under [[model]] moves a model"],
         (false, true) => message![
             what;
-            "if no cellar is meant, its heights count from elsewhere: `position` under [[model]] moves a model"
+            "unless these are cellars, its heights are measured from elsewhere: `position` under [[model]] moves a model"
         ],
         (false, false) => message![what],
     })
@@ -85,26 +85,26 @@ pub(super) fn note(mesh: &Mesh, terrain: &TerrainFaces, components: &[usize], mo
 /// How one building stands, metres.
 #[derive(Clone, Copy, Default)]
 struct Building {
-    /// How far its foot is above the terrain where it is farthest.
+    /// The greatest height of its foot above the terrain.
     floats_m: f64,
-    /// How far it reaches below the terrain.
+    /// Its greatest depth below the terrain.
     sinks_m: f64,
-    /// All of it is below the terrain.
+    /// Whether all of it is below the terrain.
     is_buried: bool,
-    /// There is no terrain below it.
+    /// Whether there is no terrain below it.
     is_beside: bool,
 }
 
-/// What of a model is in a cell.
+/// The part of a model in one cell.
 #[derive(Clone, Copy)]
 struct BuiltCell {
-    /// The height of its lowest point, metres; infinite where there is nothing.
+    /// The height of its lowest point, metres; infinite if the cell is empty.
     lowest: f64,
-    /// How far that is above the terrain, the most of points so low; not a number where there is no terrain.
+    /// The height of that point above the terrain (the greatest of equally low points); NaN without terrain.
     above: f64,
-    /// How far any of its points is below the terrain.
+    /// The greatest depth of its points below the terrain.
     below: f64,
-    /// The height above the terrain of that of its points that is the highest above it; −∞ where none has terrain.
+    /// The greatest height of its points above the terrain; −∞ without terrain.
     highest: f64,
 }
 
@@ -117,7 +117,7 @@ struct CellRaster {
 }
 
 impl CellRaster {
-    /// Over what of the faces stands at home; none where nothing does.
+    /// Cells over those faces that stand at home; `None` if none does.
     fn around(mesh: &Mesh, faces: &[u32]) -> Option<CellRaster> {
         let points = || faces.iter().filter(|face| is_at_home(mesh, **face)).flat_map(|&face| corners(mesh, face));
         let low = points().fold(DVec3::INFINITY, DVec3::min).truncate();
@@ -133,10 +133,10 @@ impl CellRaster {
         row.min(self.rows - 1) * self.columns + column.min(self.columns - 1)
     }
 
-    /// Tells each cell in which a face covers the point that is looked at, and that point.
+    /// Calls `tell` with each cell whose centre a face covers, and the face's point there.
     fn cover(&self, [a, b, c]: [DVec3; 3], mut tell: impl FnMut(usize, DVec3)) {
         let normal = (b - a).cross(c - a);
-        // upright: it covers nothing
+        // vertical: it covers nothing
         if normal.z.abs() <= 1e-9 * normal.length() {
             return;
         }
@@ -150,7 +150,7 @@ impl CellRaster {
         });
     }
 
-    /// Per cell the terrain's highest face.
+    /// For each cell, the terrain's highest face.
     fn terrain(&self, mesh: &Mesh, terrain: &TerrainFaces) -> Vec<u32> {
         let mut highest = vec![(f64::NEG_INFINITY, NOTHING); self.columns * self.rows];
         for &face in &terrain.0 {
@@ -178,7 +178,7 @@ impl CellRaster {
             if point.z < built.lowest - LEVEL_M {
                 (built.lowest, built.above) = (point.z, above);
             } else if point.z <= built.lowest + LEVEL_M {
-                // the maximum of a number and of what is none is the number
+                // `f64::max` ignores NaN
                 (built.lowest, built.above) = (built.lowest.min(point.z), built.above.max(above));
             }
         };
@@ -196,7 +196,7 @@ impl CellRaster {
         self.islands(&cells).iter().map(|island| building(&cells, island)).collect()
     }
 
-    /// The built cells that touch each other, at corners too.
+    /// The connected groups of built cells, also across corners.
     fn islands(&self, cells: &[BuiltCell]) -> Vec<Vec<usize>> {
         let mut is_open: Vec<bool> = cells.iter().map(|cell| cell.lowest.is_finite()).collect();
         let mut islands = Vec::new();
@@ -223,18 +223,18 @@ impl CellRaster {
     }
 }
 
-/// Of a building's cells those count as its foot that reach as low as any, to what is told: eaves and balconies hang in the
-/// air above what stands.
+/// How a building stands. Its foot consists of the cells that reach as low as any other, within `LEVEL_M`: eaves and
+/// balconies are above it.
 fn building(cells: &[BuiltCell], island: &[usize]) -> Building {
     let of_island = || island.iter().map(|&cell| &cells[cell]);
     let lowest = of_island().map(|cell| cell.lowest).fold(f64::INFINITY, f64::min);
     let highest = of_island().map(|cell| cell.highest).fold(f64::NEG_INFINITY, f64::max);
     let foot = of_island().filter(|cell| cell.lowest <= lowest + TOLD_M);
     Building {
-        // the maximum leaves out what is no number
+        // the maximum ignores NaN
         floats_m: foot.map(|cell| cell.above).fold(0.0, f64::max),
         sinks_m: of_island().map(|cell| cell.below).fold(0.0, f64::max),
-        // beyond the terrain's edge it may be seen
+        // beyond the terrain's edge it may be visible
         is_buried: highest < 0.0 && of_island().all(|cell| !cell.above.is_nan()),
         is_beside: of_island().all(|cell| cell.above.is_nan()),
     }
@@ -248,7 +248,7 @@ fn is_at_home(mesh: &Mesh, face: u32) -> bool {
     mesh.faces[face as usize].iter().all(|&vertex| mesh.is_at_home(vertex))
 }
 
-/// The height of a face's plane at a place of the plan, no higher and no lower than the face itself.
+/// The height of a face's plane at a point in plan, limited to the face's own heights.
 fn on_plane([a, b, c]: [DVec3; 3], at: DVec2) -> f64 {
     let normal = (b - a).cross(c - a);
     let z = a.z - normal.xy().dot(at - a.xy()) / normal.z;

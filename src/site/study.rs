@@ -1,4 +1,4 @@
-//! The study of the request → its instants.
+//! Makes the study's instants from the request.
 
 use super::asked_value::AskedValue;
 use super::dates::{date_of, of_each_day, several};
@@ -10,7 +10,8 @@ use crate::message::{Field, message};
 use crate::sun::{DayWindow, EachDay, Place, Reading, SunError, SunTrack, Window, parse_duration_secs};
 use chrono::NaiveDate;
 
-/// The instants asked: a single one alone, or the study's window with the request before the file.
+/// The requested instants: a single one, or the study's window, in which the face's fields have priority over the
+/// file's.
 pub(super) fn track(place: &Place, written: &WrittenSite, asked: &Overrides) -> Result<SunTrack, SiteError> {
     let refraction = !asked.no_refraction;
     if let Some(time) = asked.instant {
@@ -27,7 +28,7 @@ pub(super) fn track(place: &Place, written: &WrittenSite, asked: &Overrides) -> 
     }
 }
 
-/// How near together times of change are found: as asked, else as the track has it.
+/// The requested precision of times of change, otherwise the track's.
 fn resolution_secs(written: &WrittenSite, asked: &Overrides, track: &SunTrack) -> Result<u32, SiteError> {
     let step_secs = track.step_secs;
     let in_file = written.site.study.resolution.as_deref();
@@ -42,13 +43,13 @@ fn resolution_secs(written: &WrittenSite, asked: &Overrides, track: &SunTrack) -
     Ok(secs)
 }
 
-/// The date that the file's study has.
+/// The date of the file's study.
 fn date_in_file(written: &WrittenSite) -> Result<Option<NaiveDate>, SiteError> {
     let date = written.site.study.date.as_ref();
     date.map(|date| date_of(&date.0, written.key("study", "date"))).transpose()
 }
 
-/// The single instant that is asked instead of the study.
+/// The single instant that is requested instead of the study.
 fn single(place: &Place, written: &WrittenSite, asked: &Overrides, reading: &Reading) -> Result<SunTrack, SiteError> {
     let given = [
         (Field::From, asked.from.is_some()),
@@ -59,11 +60,11 @@ fn single(place: &Place, written: &WrittenSite, asked: &Overrides, reading: &Rea
         (Field::ToDate, asked.to_date.is_some()),
     ];
     if let Some((field, _)) = given.into_iter().find(|(_, given)| *given) {
-        let message = message!["says nothing beside ", Field::At; "leave one of the two out"];
+        let message = message!["has no effect beside ", Field::At; "leave one of the two out"];
         return Err(refuse(FieldLocation::Field(field), message));
     }
     let date = match asked.date {
-        // A reading with its own date does not ask the site file for one.
+        // a reading with its own date does not need the file's
         None if reading.date.is_none() => date_in_file(written)?,
         date => date,
     };
@@ -71,7 +72,7 @@ fn single(place: &Place, written: &WrittenSite, asked: &Overrides, reading: &Rea
         .map_err(|error| SiteError::sun(FieldLocation::Field(Field::At), error))
 }
 
-/// From, to and step of the study: the face's, or else the file's.
+/// The study's beginning, end and step, from the face, otherwise from the file.
 #[derive(Clone, Debug)]
 struct AskedWindow<'a> {
     from: Option<AskedValue<'a, Reading>>,
@@ -91,7 +92,7 @@ impl<'a> AskedWindow<'a> {
     }
 }
 
-/// The study's window, or that on each of several days.
+/// The study's window, or the same window on each of several days.
 fn window(place: &Place, written: &WrittenSite, asked: &Overrides) -> Result<SunTrack, SiteError> {
     let refraction = !asked.no_refraction;
     let said = AskedWindow::of(written, asked);
@@ -105,7 +106,7 @@ fn window(place: &Place, written: &WrittenSite, asked: &Overrides) -> Result<Sun
     };
 
     let reading = from.read(str::parse::<Reading>)?;
-    // a beginning with its own date is asked later than the date in the file, and goes before it.
+    // a beginning with its own date, set by a face, has priority over the file's date
     let overrides = reading.date.is_some() && asked.from.is_some();
     let date = match asked.date {
         None if !overrides => date_in_file(written)?,
@@ -117,7 +118,7 @@ fn window(place: &Place, written: &WrittenSite, asked: &Overrides) -> Result<Sun
         let at = match error {
             SunError::ZeroStep | SunError::TooManyInstants { .. } => step.at(),
             SunError::EmptyWindow { .. } | SunError::Backwards { .. } | SunError::WindowTooLong { .. } => to.at(),
-            // where its beginning is sound the fault lies in its end
+            // if the beginning is valid, the end is at fault
             _ if window.begin(place).is_ok() => to.at(),
             _ => from.at(),
         };
@@ -125,7 +126,7 @@ fn window(place: &Place, written: &WrittenSite, asked: &Overrides) -> Result<Sun
     })
 }
 
-/// A window on each of several days; without `from` and `to` the whole of them.
+/// A window on each of several days; the whole days without `from` and `to`.
 fn each_day(
     place: &Place,
     written: &WrittenSite,
@@ -153,7 +154,7 @@ fn each_day(
     })
 }
 
-/// Which of date, from, to and step nobody said.
+/// The error that names those of date, from, to and step that nothing gives.
 pub(super) fn no_study(written: &WrittenSite, said: [bool; 4]) -> SiteError {
     const EXAMPLES: [(Field, &str); 4] =
         [(Field::Date, "2026-03-21"), (Field::From, "9:00"), (Field::To, "17:00"), (Field::Step, "1h")];

@@ -1,39 +1,40 @@
-//! What a ground plane hides of the models' upper side, and whether that is terrain.
+//! What a horizontal plane hides of the models' upper side, and whether that is terrain.
 
 use super::extent::Bounds;
 use crate::mesh::scan::{by_rows, spans, wholes};
 use crate::mesh::{Component, Mesh};
 use glam::{DVec2, DVec3, Vec3Swizzles as _};
 
-/// What lies no farther below the ground than this lies on it, metres: a receiver is judged so far above itself.
+/// A surface no farther below the ground than this still lies on it, metres: receivers are judged this far above
+/// themselves.
 pub(super) const ON_GROUND_M: f64 = 0.001;
 
-/// Points along the longer side of the models' plan at which is looked.
+/// The number of sample points along the longer side of the models' plan.
 const POINTS: f64 = 256.0;
-/// The first of them, in their distances from each other, so that none lies on an edge of a regular model.
+/// The offset of the first sample point, in spacings, chosen so that none lies on an edge of a regular model.
 pub(super) const FIRST: f64 = 0.381_966;
-/// Where less of the plan than this is hidden, there is no note.
+/// The least hidden share of the plan that gets a note.
 const LEAST_SHARE: f64 = 0.005;
-/// Terrain covers at least this share of the models' plan, seen from above.
+/// The least share of the models' plan that terrain covers, seen from above.
 const TERRAIN_SHARE: f64 = 0.25;
-/// At most this share of it may have two faces above each other (three, where it is a block and a part of its top is above
-/// the plane).
+/// The greatest share of terrain that may have two faces above each other (three, for a block that is partly above the
+/// plane).
 const OVERLAP_SHARE: f64 = 0.1;
 
-/// What of the models' upper side lies below a plane.
+/// The part of the models' upper side that lies below a plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct BuriedShare {
-    /// The component of which most does.
+    /// The component with the largest hidden part.
     pub(super) component: usize,
-    /// Which part of all that is seen from above.
+    /// The hidden share of everything that is seen from above.
     pub(super) of_plan: f64,
-    /// Which part of what is seen of that component.
+    /// The hidden share of what is seen of that component.
     pub(super) of_component: f64,
-    /// Whether its node is terrain: a sheet, and at least a quarter of what is seen.
+    /// Whether its node is terrain: a sheet that is at least a quarter of what is seen.
     pub(super) is_terrain: bool,
 }
 
-/// What a node comes to, in points: its components, one for each of its materials, together.
+/// The sample points of a node; its components, one for each of its materials, count together.
 #[derive(Clone, Copy, Default)]
 struct PointCounts {
     faces: usize,
@@ -42,13 +43,13 @@ struct PointCounts {
     buried: usize,
 }
 
-/// What a plane at a level hides of what is seen from above of all models; none where that is next to nothing.
+/// The part of what is seen of all models from above that a plane at a level hides; `None` if it is negligible.
 pub(super) fn buried(mesh: &Mesh, bounds: Bounds, level: f64) -> Option<BuriedShare> {
     let low = bounds.low.truncate();
     let size = bounds.high.truncate() - low;
     let apart = size.max_element() / POINTS;
     let [columns, rows] = size.to_array().map(|side| (side / apart).ceil().max(1.0) as usize);
-    // the highest face at each point, and the component that covered it last
+    // the highest face at each point, and the last component that covered it
     let mut highest = vec![(f64::NEG_INFINITY, 0); columns * rows];
     let mut last = vec![usize::MAX; columns * rows];
     let node_of = nodes(&mesh.components);
@@ -58,7 +59,7 @@ pub(super) fn buried(mesh: &Mesh, bounds: Bounds, level: f64) -> Option<BuriedSh
         for face in component.faces.clone() {
             let corners = mesh.corners(face as usize).map(|corner| mesh.origin + corner.as_dvec3());
             let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-            // upright: nobody sees it from above
+            // vertical: it is not seen from above
             if normal.z.abs() <= 1e-9 * normal.length() {
                 continue;
             }
@@ -92,7 +93,7 @@ pub(super) fn buried(mesh: &Mesh, bounds: Bounds, level: f64) -> Option<BuriedSh
     let share = |part: usize, of: usize| part as f64 / of.max(1) as f64;
     let of_plan = share(hidden, all);
     let layers = most.faces as f64 / most.covered.max(1) as f64;
-    // a block of earth has an underside, as a cellar has, but that lies below the plane as a whole
+    // a block of earth has an underside, as a cellar does, but that is wholly below the plane
     let is_in_part = share(most.buried, most.seen) <= 1.0 - OVERLAP_SHARE;
     let is_sheet = layers <= 1.0 + OVERLAP_SHARE || is_in_part && layers <= 2.0 + OVERLAP_SHARE;
     (of_plan >= LEAST_SHARE).then(|| BuriedShare {
@@ -103,7 +104,7 @@ pub(super) fn buried(mesh: &Mesh, bounds: Bounds, level: f64) -> Option<BuriedSh
     })
 }
 
-/// Per component the number of its node: components of one node that has several materials follow each other.
+/// For each component, the index of its node. Components of one node with several materials are consecutive.
 fn nodes(components: &[Component]) -> Vec<usize> {
     let node = |component: &Component| component.aliases.first().filter(|node| **node != component.name).cloned();
     let mut number = 0;

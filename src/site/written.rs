@@ -1,4 +1,4 @@
-//! The user's path → a site file's contents: a site file, a folder, or a model with its place.
+//! Reads the user's path as a request: a site file, a folder, or a model with its place.
 
 use super::error::{FieldLocation, SiteError};
 use super::file::{ModelTable, SiteFile};
@@ -13,25 +13,25 @@ use std::path::{Path, PathBuf};
 /// A request as written, and where it was written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WrittenSite {
-    /// The file, as the user named it.
+    /// The file as the user named it.
     pub file: String,
-    /// What relative paths are relative to.
+    /// The folder that relative paths start from.
     pub folder: PathBuf,
-    /// What it says.
+    /// Its contents.
     pub site: SiteFile,
-    /// The text that was read, comments and all; empty for a bare model.
+    /// The text that was read, with comments; empty for a bare model.
     pub text: String,
 }
 
-/// The largest site file, bytes. Larger ones are models or something else.
+/// The largest site file, bytes. A larger file is a model or something else.
 const MOST_BYTES: u64 = 16_000_000;
 
-/// Where the formats stand.
+/// Where the formats are documented.
 const FORMATS_HINT: &str = "docs/formats.md lists all models that are read, and how to export them";
 
-/// A site file's bytes as text.
+/// Decodes a site file's bytes.
 fn text_of(file: &str, bytes: Vec<u8>) -> Result<String, SiteError> {
-    // in UTF-16 every other byte of what is mostly ASCII is 0
+    // in UTF-16 every other byte of mostly ASCII text is 0
     let zeros = |parity: usize| bytes.iter().skip(parity).step_by(2).filter(|byte| **byte == 0).count();
     let is_wide = |parity: usize| bytes.len() >= 4 && 3 * zeros(parity) > bytes.len();
     if bytes.starts_with(&[0xFF, 0xFE]) || bytes.starts_with(&[0xFE, 0xFF]) || is_wide(0) || is_wide(1) {
@@ -43,15 +43,15 @@ fn text_of(file: &str, bytes: Vec<u8>) -> Result<String, SiteError> {
         Err(error) if !has_zeros => {
             let good = error.utf8_error().valid_up_to();
             let line = error.as_bytes()[..good].iter().filter(|byte| **byte == b'\n').count() + 1;
-            let what = format!("has a letter in line {line} that is not UTF-8, but Latin-1 or Windows-1252, say");
+            let what = format!("has a letter in line {line} that is not UTF-8, but perhaps Latin-1 or Windows-1252");
             Err(SiteError::Encoding { file: file.to_owned(), what })
         }
         _ => Err(SiteError::Unreadable { path: file.to_owned(), why: "it is not text".to_owned() }),
     }
 }
 
-/// Whether a file may be meant as a site file: it is called so, is TOML, is a text in an encoding that is told, or has a
-/// table of one, and then what is wrong in it is told by its line.
+/// Whether a file may be meant as a site file, so that errors in it should be reported by line: it is named `.toml`, is
+/// TOML, is text in a recognised encoding, or has one of a site file's tables.
 fn may_be_site(path: &Path, bytes: &[u8]) -> bool {
     let is_called_so = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
     let is_wide = bytes.starts_with(&[0xFF, 0xFE]) || bytes.starts_with(&[0xFE, 0xFF]);
@@ -63,16 +63,17 @@ fn may_be_site(path: &Path, bytes: &[u8]) -> bool {
     is_called_so || is_wide || bytes.split(|byte| *byte == b'\n').any(has_table) || is_toml().is_some()
 }
 
-/// What is wrong with several paths.
+/// An error about several paths.
 fn refuse_beside(message: Message) -> SiteError {
     refuse(FieldLocation::Field(Field::Models), message)
 }
 
 impl WrittenSite {
-    /// Reads SITE: a site file, a folder that holds a `site.toml`, or a model, whose file or request says its place.
+    /// Reads the argument SITE: a site file, a folder that contains a `site.toml`, or a model whose place is in the
+    /// file or in the request.
     ///
     /// # Errors
-    /// What cannot be read, and what is wrong with a site file's form.
+    /// A file that cannot be read, or a site file whose form is wrong.
     pub fn read(path: &Path, asked: &Overrides) -> Result<WrittenSite, SiteError> {
         let mut written = Self::read_as_it_is(path)?;
         written.add_models(&asked.beside)?;
@@ -90,7 +91,7 @@ impl WrittenSite {
         Ok(written)
     }
 
-    /// As [`WrittenSite::read`], of the other state of a site: what names no place stands in that of `first`.
+    /// As [`WrittenSite::read`], for the other state of a site: without its own place it has that of `first`.
     ///
     /// # Errors
     /// As [`WrittenSite::read`].
@@ -101,10 +102,10 @@ impl WrittenSite {
         Ok(written)
     }
 
-    /// Where it says no point of the Earth, it stands at that of another state.
+    /// Takes the place of another state if this one gives no point of the Earth.
     ///
     /// # Errors
-    /// A latitude without a longitude, and the other way round.
+    /// A latitude without a longitude, or a longitude without a latitude.
     pub(super) fn take_place_of(&mut self, first: &WrittenSite) -> Result<(), SiteError> {
         if self.point()?.is_some() {
             return Ok(());
@@ -122,18 +123,18 @@ impl WrittenSite {
             let name = file.display().to_string();
             if !self.text.is_empty() {
                 let what = format!("{name} stands beside the site file {}", self.file);
-                return Err(refuse_beside(message![what; "name it under [[model]] in the site file"]));
+                return Err(refuse_beside(message![what; "add it as a [[model]] in the site file"]));
             }
             if !formats::is_model(file) {
-                let what = format!("{name} is no model of a known format");
-                return Err(refuse_beside(message![what; "name model files alone, or one site"]));
+                let what = format!("{name} is not a model of a known format");
+                return Err(refuse_beside(message![what; "give only model files, or one site"]));
             }
             self.site.model.push(ModelTable { path: Some(self.path_of(file)), ..ModelTable::default() });
         }
         Ok(())
     }
 
-    /// Writes for all models which axis is up and how high footprints are, where the command line says it.
+    /// Sets the up axis and the height of footprints for all models, if the command line gives them.
     fn set_models(&mut self, asked: &Overrides) {
         if let Some(height) = asked.default_height {
             self.site.model.iter_mut().for_each(|model| model.default_height = Some(height));
@@ -162,7 +163,7 @@ impl WrittenSite {
         let unreadable = |error: std::io::Error| SiteError::Unreadable { path: file.clone(), why: error.to_string() };
         let length = std::fs::metadata(path).map_err(unreadable)?.len();
         if length > MOST_BYTES {
-            let what = format!("{file} has {length} bytes, and a site file may have 16 MB");
+            let what = format!("{file} has {length} bytes, but a site file has at most 16 MB");
             return Err(SiteError::UnknownFormat(message![what; FORMATS_HINT]));
         }
         let bytes = std::fs::read(path).map_err(unreadable)?;
@@ -179,18 +180,18 @@ impl WrittenSite {
         })
     }
 
-    /// Where its models lie, in their order.
+    /// The paths of its models, in order.
     pub fn model_paths(&self) -> Vec<PathBuf> {
         self.site.model.iter().filter_map(|model| Some(self.folder.join(model.path.as_ref()?))).collect()
     }
 
-    /// A file as this site names it: by a relative path, where it lies beside the site file or below.
+    /// A file's path as this site writes it: relative if the file is in the site file's folder or below.
     pub fn path_of(&self, file: &Path) -> String {
         WrittenSite::name_in(&self.folder, file)
     }
 
-    /// A file as a site file in a folder names it: what lies beside or below is relative, so that both can move
-    /// together.
+    /// A file's path as a site file in a folder writes it: relative if the file is in that folder or below, so that
+    /// both can move together.
     pub fn name_in(folder: &Path, file: &Path) -> String {
         let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
@@ -199,8 +200,7 @@ impl WrittenSite {
         if cfg!(windows) { path.replace('\\', "/") } else { path }
     }
 
-    /// Whether the site file at a path says something else by now. Where it cannot be read, the next reader reports
-    /// that.
+    /// Whether the site file at a path has changed. If it cannot be read, the next reader reports that.
     pub fn has_changed_at(&self, path: &Path) -> bool {
         std::fs::read(path).is_ok_and(|bytes| bytes != self.text.as_bytes())
     }
@@ -220,12 +220,12 @@ impl WrittenSite {
         })
     }
 
-    /// Where a key of this file stands.
+    /// The location of a key of this file.
     pub(super) fn key(&self, table: &str, key: &str) -> FieldLocation {
         FieldLocation::Key { file: self.file.clone(), table: keys::bracketed(table), key: key.to_owned() }
     }
 
-    /// Where a key of one of the models stands.
+    /// The location of a key of one of the models.
     pub(super) fn model_key(&self, index: usize, key: &str) -> FieldLocation {
         FieldLocation::Key {
             file: self.file.clone(),
@@ -234,7 +234,7 @@ impl WrittenSite {
         }
     }
 
-    /// Where a key of one of the probes stands.
+    /// The location of a key of one of the probes.
     pub(super) fn probe_key(&self, index: usize, key: &str) -> FieldLocation {
         FieldLocation::Key {
             file: self.file.clone(),
@@ -243,12 +243,12 @@ impl WrittenSite {
         }
     }
 
-    /// A key that must be there and is not.
+    /// The error for a missing key.
     pub(super) fn missing(&self, what: impl Into<String>, example: impl Into<String>) -> SiteError {
         SiteError::Missing { file: self.file.clone(), what: what.into(), example: example.into() }
     }
 
-    /// That nobody says a latitude and a longitude.
+    /// The error for a missing latitude and longitude.
     pub(super) fn no_point(&self, example: &str) -> SiteError {
         match self.site.place {
             None => self.missing("[place]", format!("[place] with {example}")),
@@ -256,10 +256,10 @@ impl WrittenSite {
         }
     }
 
-    /// Latitude and longitude as they are written; none where neither is.
+    /// Latitude and longitude as written; `None` if neither is.
     ///
     /// # Errors
-    /// One of them alone.
+    /// Only one of them.
     pub(super) fn point(&self) -> Result<Option<[f64; 2]>, SiteError> {
         let written = self.site.place.as_ref().map(|table| (table.latitude, table.longitude)).unwrap_or_default();
         let missing = |key: &str| Err(self.missing(format!("{key} in [place]"), keys::example("place", key)));
@@ -271,7 +271,6 @@ impl WrittenSite {
         }
     }
 
-    /// The checked place.
     pub(super) fn place(&self, asked: &Overrides) -> Result<Place, SiteError> {
         const EXAMPLE: &str = "latitude = 48.8583 and longitude = 2.2945";
         let point = self.point()?;
@@ -295,11 +294,11 @@ impl WrittenSite {
     }
 }
 
-/// Returns an error if a model that nobody but the command line names cannot be opened.
+/// Refuses a model on the command line that cannot be opened.
 pub(super) fn bare_fault(file: &Path) -> Result<(), ModelError> {
     let fault = match std::fs::metadata(file) {
         Ok(found) if found.is_file() => return Ok(()),
-        Ok(_) => message!["is no regular file"; "give a model file"],
+        Ok(_) => message!["is not a regular file"; "give a model file"],
         Err(error) if error.kind() == ErrorKind::NotFound => {
             message!["there is no such file"; "check its name and its folder"]
         }

@@ -1,4 +1,4 @@
-//! Does work again when the graphics device on which it runs fails.
+//! Repeats work whose graphics device fails.
 
 use super::{Event, OnEvent, StudyError, tell};
 use crate::choice::{Engine, Finder};
@@ -7,7 +7,7 @@ use crate::shadow::ShadowError;
 use crate::site::Site;
 use std::sync::Arc;
 
-/// Work on a site, on this adapter if one is given, otherwise on one that it opens itself.
+/// Work on a site: on the given adapter, or without one on an adapter that it opens itself.
 pub type Attempt<'a, T> = dyn FnMut(&Site, Option<&Arc<Gpu>>, &mut OnEvent<'_>) -> Result<T, StudyError> + 'a;
 
 /// Does work on a site. If the device fails during the work, it is done once more on a new one. If that fails, too, the
@@ -15,7 +15,7 @@ pub type Attempt<'a, T> = dyn FnMut(&Site, Option<&Arc<Gpu>>, &mut OnEvent<'_>) 
 /// software adapter takes over, so that the technique stays the requested one. Notes say so.
 ///
 /// # Errors
-/// What the work says; [`StudyError::NoDevice`] where every device fails.
+/// The errors of the work itself; [`StudyError::NoDevice`] if every device fails.
 pub fn persist<T>(
     site: &Site,
     can: bool,
@@ -38,13 +38,13 @@ pub fn persist<T>(
     failed_device(&last).map_or(last, |why| Err(StudyError::NoDevice(why)))
 }
 
-/// Says that a device failed, and on what the work is done again.
+/// Reports that a device failed, and on what the work starts again.
 fn begin_again(why: &str, on: &str, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     tell(on_event, Event::Note(format!("{why}: the work is done again {on}").into()))?;
     tell(on_event, Event::StartsOver)
 }
 
-/// Why no device did it, where that is what went wrong: it was lost, or none was left after a loss.
+/// Why a device failed, if that is what ended the work: it was lost, or none was left after a loss.
 fn failed_device<T>(done: &Result<T, StudyError>) -> Option<String> {
     match done.as_ref().err()? {
         StudyError::Gpu(error) | StudyError::Shadow(ShadowError::Gpu(error)) => match error {

@@ -1,4 +1,4 @@
-//! Chooses who draws: technique, engine and finder of the request, or the fastest of them.
+//! Chooses the technique, the engine and the finder: those of the request, or the fastest.
 
 use super::machine::Machine;
 use super::{Event, OnEvent, StudyError, subject_of, tell};
@@ -9,16 +9,16 @@ use crate::site::Site;
 use crate::view::View;
 use std::sync::Arc;
 
-/// The adapter that is open already, else one that is opened.
+/// Returns the adapter that is open, or opens one.
 pub(super) fn opened(gpu: Option<&Arc<Gpu>>) -> Result<Arc<Gpu>, GpuError> {
     gpu.map_or_else(|| Gpu::open().map(Arc::new), |gpu| Ok(Arc::clone(gpu)))
 }
 
-/// Technique and engine as asked; else projection on the plan, and ray casting for a camera, but on a real graphics
-/// adapter the stencil, unless it is the ground's plane alone that is judged.
+/// Technique and engine as requested. By default: projection for the plan, and ray casting for a camera; but on a real
+/// graphics adapter the stencil, unless only the ground's plane is judged.
 ///
-/// A projected instant on the plane takes less time than opening an adapter does, so none is opened for it
-/// (docs/benchmarks/peers.md). What draws on an adapter does so on the one that is open already, where there is one.
+/// Projecting an instant onto the plane takes less time than opening an adapter, so none is opened for that
+/// (docs/benchmarks/peers.md). A technique on the adapter uses the one that is open, if there is one.
 pub(super) fn choose(
     gpu: Option<&Arc<Gpu>>,
     site: &Site,
@@ -44,18 +44,18 @@ pub(super) fn choose(
     Ok(Machine::on_processor(on_processor(site, subject), site))
 }
 
-/// What [`Method::Auto`] is; itself where that is for the machine's adapter to say.
+/// What [`Method::Auto`] stands for; itself if that depends on the machine's adapter.
 fn automatic(site: &Site, subject: Subject) -> Method {
     let on_ground = subject == Subject::Ground && is_plain(site);
     match (site.engine, site.finder) {
-        // rays alone draw it
+        // only ray casting draws a side
         _ if subject == Subject::Side => Method::RayCast,
         (Engine::Cpu, _) => on_processor(site, subject),
-        // measured (docs/benchmarks/instants.md): faces that are filled need no silhouette, and no count
+        // measured (docs/benchmarks/instants.md): filling faces needs neither silhouettes nor counting
         (Engine::Gpu | Engine::Auto, _) if on_ground => Method::Projected,
-        // silhouettes are asked, and of the exact techniques only the stencil has them
+        // a finder is requested, and of the exact techniques only the stencil uses one
         (Engine::Gpu, _) | (Engine::Auto, Finder::Brute | Finder::Hextree | Finder::Gpu) => Method::Stencil,
-        // what it will be does not depend on the adapter alone: a setting of one technique names it
+        // the adapter is not all that decides: a setting of a single technique names it
         (Engine::Auto, Finder::Auto) => Method::Auto,
     }
 }
@@ -66,12 +66,12 @@ fn on_processor(site: &Site, subject: Subject) -> Method {
     if is_plan && is_plain(site) { Method::Projected } else { Method::RayCast }
 }
 
-/// Whether no option of a single technique is given.
+/// Whether no setting of a single technique is given.
 fn is_plain(site: &Site) -> bool {
     site.settings == Settings::NONE && site.finder == Finder::Auto
 }
 
-/// A technique that counts, as something asks what that took: as asked, otherwise the stencil.
+/// A technique that counts, for a request that needs its counts: the requested one, otherwise the stencil.
 pub(super) fn counting(gpu: Option<&Arc<Gpu>>, site: &Site, view: &View, field: Field) -> Result<Machine, StudyError> {
     not_side(view, field)?;
     let method = match site.method {
@@ -80,7 +80,7 @@ pub(super) fn counting(gpu: Option<&Arc<Gpu>>, site: &Site, view: &View, field: 
     };
     if !method.row().counts || site.engine == Engine::Cpu {
         let message = message![
-            "only techniques that count shadow volumes tell it, on the gpu";
+            "only techniques that count shadow volumes report it, on the gpu";
             "take ", (Field::Technique, listed(&tellers(field), "or")), " without ", (Field::Engine, "cpu"), ", or leave it out"
         ];
         return Err(StudyError::Conflict { field, message });
@@ -89,18 +89,18 @@ pub(super) fn counting(gpu: Option<&Arc<Gpu>>, site: &Site, view: &View, field: 
     Ok(Machine::on(opened(gpu)?, method, site))
 }
 
-/// The words of the techniques that tell what a field asks of counting.
+/// The words of the techniques that report what a field asks for.
 fn tellers(field: Field) -> Vec<&'static str> {
     let tells = |row: &&MethodRow| if field == Field::MaskDiagram { row.shows_mask } else { row.counts };
     TABLE.iter().filter(tells).map(|row| row.word).collect()
 }
 
-/// The stencil, whose volumes and silhouettes are asked for: on a software adapter too.
+/// The stencil, for its volumes and silhouettes; a software adapter will do.
 pub(super) fn stencil_alone(gpu: Option<&Arc<Gpu>>, site: &Site, view: &View) -> Result<Machine, StudyError> {
     not_side(view, Field::Volumes)?;
     if !matches!(site.method, Method::Auto | Method::Stencil) || site.engine == Engine::Cpu {
         let message = message![
-            "volumes and silhouette are drawn by the technique stencil on the gpu alone";
+            "only the technique stencil on the gpu draws volumes and silhouette";
             "take ", (Field::Technique, Method::Stencil.word()), " without ", (Field::Engine, "cpu"), ", or leave them out"
         ];
         return Err(StudyError::Conflict { field: Field::Volumes, message });
@@ -110,23 +110,23 @@ pub(super) fn stencil_alone(gpu: Option<&Arc<Gpu>>, site: &Site, view: &View) ->
     Ok(Machine::on(gpu, Method::Stencil, site))
 }
 
-/// Volumes are drawn and counted in the plan and in perspective.
+/// Refuses a side: volumes are drawn and counted only in the plan and in perspective.
 fn not_side(view: &View, field: Field) -> Result<(), StudyError> {
     if matches!(view, View::Elevation(_)) {
         let message = message![
-            "rays alone draw a side, and there are no shadow volumes in it";
-            "look from elsewhere, or leave it out"
+            "a side is drawn by ray casting, which has no shadow volumes";
+            "choose another view, or leave it out"
         ];
         return Err(StudyError::Conflict { field, message });
     }
     Ok(())
 }
 
-/// Masks are of a plan or of a camera's picture.
+/// Refuses patches: masks are for plans and cameras' pictures.
 pub(crate) fn not_patches(site: &Site) -> Result<(), StudyError> {
     if site.receivers == Receivers::Patches {
         let message = message![
-            "surfaces are judged in a study's profile alone";
+            "only a study's profile judges surfaces";
             "take top or ground, or leave it out"
         ];
         return Err(StudyError::Conflict { field: Field::Receivers, message });

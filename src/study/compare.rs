@@ -1,4 +1,4 @@
-//! The study of two states of a site: what a change does to the shadow.
+//! The study of two states of a site: how a change affects the shadow.
 
 use super::Outcome;
 #[cfg(feature = "test-hooks")]
@@ -21,15 +21,15 @@ pub struct CompareOutcome {
     pub comparison: Comparison,
     /// What drew the states before and after.
     pub drawn: [Provenance; 2],
-    /// What the cells see before and after: under [`Receivers::Ground`] with the models.
+    /// What the cells see before and after. Under [`Receivers::Ground`] this includes the models.
     pub surfaces: [Surface; 2],
     /// The meshes whose faces the surfaces contain.
     pub meshes: [Mesh; 2],
-    /// What was noted of either beside the notes of its site.
+    /// Notes on either state besides those of its site.
     pub notes: Vec<Message>,
 }
 
-/// Both profiles as [`super::run`] finds them, before first.
+/// Runs [`super::run`] for both states, before first.
 ///
 /// # Errors
 /// As [`super::run`].
@@ -49,13 +49,13 @@ fn study(when: &str, site: &Site, name: &str, on_event: &mut OnEvent<'_>) -> Res
 }
 
 impl CompareOutcome {
-    /// Compares two states that were found.
+    /// Compares the outcomes of two states.
     ///
-    /// Under [`Receivers::Top`] a cell that sees another surface after than before is altered. Under
-    /// [`Receivers::Ground`] only one whose terrain lies higher or lower after than before is: the ground is judged
-    /// everywhere, under buildings too.
+    /// Under [`Receivers::Top`] a cell is altered if it sees another surface after the change. Under
+    /// [`Receivers::Ground`] it is altered only if its terrain changes height, since the ground is judged everywhere,
+    /// also under buildings.
     pub fn new(pair: &Pair, before: Outcome, after: Outcome) -> CompareOutcome {
-        // by the processor in both, so that no adapter's rounding passes for a change
+        // on the processor for both, so that an adapter's rounding cannot look like a change
         let [seen_before, seen_after] = [(&before, &pair.before), (&after, &pair.after)]
             .map(|(outcome, site)| plan_surface(&outcome.surface_mesh, site.ground.level, &site.grid));
         let altered = match pair.before.receivers {
@@ -79,7 +79,7 @@ impl CompareOutcome {
     }
 }
 
-/// Where the ground itself is another after than before.
+/// The cells whose ground changes height.
 fn altered_ground(pair: &Pair) -> Vec<Alteration> {
     let states = [&pair.before, &pair.after];
     if states.iter().all(|site| site.ground.kind == GroundKind::Plane) {

@@ -1,4 +1,4 @@
-//! Why a study has no answer.
+//! Why a study fails.
 
 use crate::choice::Misfit;
 use crate::gpu::GpuError;
@@ -6,12 +6,12 @@ use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plai
 use crate::shadow::ShadowError;
 use crate::sun::SunError;
 
-/// Why a study has no answer, in one line.
+/// Why a study fails, in one line.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
     /// Two choices that exclude each other.
     Conflict {
-        /// What does not fit.
+        /// The choice that does not fit.
         field: Field,
         /// Why, and a hint.
         message: Message,
@@ -41,11 +41,11 @@ pub enum StudyError {
         /// How many can be summed.
         most_secs: u32,
     },
-    /// Nothing that receives has an area.
+    /// No component that receives has an area.
     NoPatch,
     /// The track has no instant.
     NoInstant,
-    /// A site made in memory has a list with another length than its mesh has components.
+    /// A list of a site made in memory does not have one entry for each component.
     Components {
         /// The field of [`Site`](crate::site::Site).
         list: &'static str,
@@ -54,19 +54,19 @@ pub enum StudyError {
         /// The number of the mesh's components.
         components: usize,
     },
-    /// A tile is none of the study's.
+    /// A tile that is not one of the study's.
     OtherTile,
-    /// No adapter, or not a good one.
+    /// No usable adapter.
     Gpu(#[from] GpuError),
-    /// Volumes and silhouettes were requested of a technique other than the stencil.
+    /// Volumes or silhouettes were requested from a technique other than the stencil.
     NoVolumes(String),
     /// The techniques cannot be compared with ray casting on this machine.
     NoVerification(String),
-    /// Every device failed on which the work was tried, and nothing else can do it.
+    /// All devices on which the work was tried failed, and nothing else can do it.
     NoDevice(String),
     /// All instants are at night.
     NoDay,
-    /// The sun's position at a time cannot be found.
+    /// The sun's position cannot be computed.
     Sun(#[from] SunError),
     /// Drawing failed.
     Shadow(#[from] ShadowError),
@@ -95,7 +95,7 @@ impl Worded for StudyError {
             ],
             StudyError::TooLong { day_secs, most_secs } => message![
                 format!(
-                    "the study has {} hours of daylight, and surfaces sum at most {}",
+                    "the study has {} hours of daylight, and sums on surfaces hold at most {}",
                     day_secs / 3600,
                     most_secs / 3600
                 );
@@ -109,7 +109,7 @@ impl Worded for StudyError {
                 format!("the site's list `{list}` has {length} entries, and its mesh {components} components");
                 "give it one entry for each component"
             ],
-            StudyError::OtherTile => message!["the tile is none of this study's"; "take one of its own tiles"],
+            StudyError::OtherTile => message!["the tile is not one of this study's"; "take one of its own tiles"],
             StudyError::Gpu(error) => error.message(),
             StudyError::NoVolumes(why) => message![
                 Field::Volumes,
@@ -121,13 +121,13 @@ impl Worded for StudyError {
                 DRIVER
             ],
             StudyError::NoDevice(why) => message![
-                why.clone(), ", after another device had failed, and what is asked is drawn on a graphics adapter alone";
-                "update its driver, close what else draws on it, take larger cells, or install a driver that draws in \
+                why.clone(), ", after another device had failed, and only a graphics adapter can draw what was requested";
+                "update its driver, close other programs that draw on it, take larger cells, or install a driver that draws in \
                  software (on Linux mesa-vulkan-drivers)"
             ],
             StudyError::NoDay => message![
-                "there is no sun at any of the study's instants, and nothing to compare";
-                "take a window by day", Piece::Where(Field::From, pieces![" with ", Field::From, " and ", Field::To])
+                "there is no sun at any of the study's instants, so there is nothing to compare";
+                "choose a window by day", Piece::Where(Field::From, pieces![" with ", Field::From, " and ", Field::To])
             ],
             StudyError::Sun(error) => error.message(),
             StudyError::Shadow(error) => error.message(),
@@ -143,7 +143,7 @@ impl StudyError {
         matches!(self, Conflict { .. } | Misfit(_) | LittleMemory { .. } | TooManyCells { .. })
     }
 
-    /// What a graphics device failed of, where it did while working: on another one the work can be done.
+    /// The failure of a graphics device during the work, if that is the error. Another device could do the work.
     pub(crate) fn lost_device(&self) -> Option<&GpuError> {
         match self {
             StudyError::Gpu(error) | StudyError::Shadow(ShadowError::Gpu(error)) => Some(error),
@@ -153,7 +153,7 @@ impl StudyError {
     }
 }
 
-/// So much memory as a budget is written, no less than that.
+/// An amount of memory as a budget is written, rounded up.
 fn amount(bytes: u64) -> String {
     if bytes < 10 << 20 {
         return format!("{}KiB", bytes.div_ceil(1 << 10));

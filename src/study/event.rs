@@ -1,4 +1,4 @@
-//! The events of a study, and who receives them.
+//! The events of a study.
 
 use super::gaps::Gaps;
 use super::{StudyError, TiledStudy};
@@ -12,22 +12,22 @@ use std::cell::RefCell;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-/// What happens while a study runs.
+/// Something that happens while a study runs.
 #[derive(Clone, Debug)]
 pub enum Event<'a> {
-    /// Something that the user should know.
+    /// Something that the user should know about the result.
     Note(Message),
-    /// A graphics adapter failed, and the work starts again: what was reported of it is void, except for notes.
+    /// A graphics adapter failed, and the work starts again. Everything that was reported is void, except for notes.
     StartsOver,
-    /// The same study runs again. A listener that has kept what was done so far ([`Event::Kept`]) can put it here, and
-    /// the study continues from there.
+    /// The same study runs again. A listener that has stored its state ([`Event::Kept`]) can put it here, and the study
+    /// continues from there.
     Resumes {
         /// The study.
         study: &'a TiledStudy<'a>,
         /// The state from which the study is to continue.
         begun: &'a RefCell<Option<Unfinished>>,
     },
-    /// A study on patches that is to be kept (`patches_kept`) is prepared. A listener that has kept what was done so far
+    /// A study on patches whose state is to be kept (`patches_kept`) is prepared. A listener that has stored a state
     /// can put it here, and the study continues from there.
     Prepared {
         /// The study's fingerprint: a number made of everything that its result depends on.
@@ -37,12 +37,12 @@ pub enum Event<'a> {
     },
     /// Everything is prepared; drawing begins.
     Started {
-        /// The number of instants, added up over the tiles.
+        /// The number of instants, summed over the tiles.
         instants: usize,
         /// The number of tiles.
         tiles: usize,
     },
-    /// Some of the instants were done before the study was stopped, and are not drawn again.
+    /// Some of the instants were computed before the study was stopped, and are not drawn again.
     GoesOn {
         /// Their number.
         done: usize,
@@ -51,7 +51,7 @@ pub enum Event<'a> {
     Tile(Tile),
     /// The tile's sums, once all of its instants are done.
     Summed(Arc<Shaded>),
-    /// One instant is done. Within a tile they come in the order of time.
+    /// One instant is done. Within a tile instants come in order of time.
     Drawn {
         /// Its index, from 0.
         index: usize,
@@ -66,7 +66,7 @@ pub enum Event<'a> {
     },
     /// The state so far. A listener that keeps it can continue the study later.
     Kept(&'a Unfinished),
-    /// After the study, one more stage of making its files is done.
+    /// After the study: a further stage of making its files is done.
     Stage(&'static str),
 }
 
@@ -84,7 +84,7 @@ pub(crate) fn tell(on_event: &mut OnEvent<'_>, event: Event<'_>) -> Result<(), S
     }
 }
 
-/// Refuses a site whose lists do not have its components, which a program may have set, and passes on its notes.
+/// Refuses a site whose lists do not match its components, as a program may have set them; then passes on its notes.
 ///
 /// # Errors
 /// [`StudyError::Components`]; [`StudyError::Interrupted`] if the listener ends the work.
@@ -98,7 +98,7 @@ pub(crate) fn note_site(site: &Site, on_event: &mut OnEvent<'_>) -> Result<(), S
     note_models(&site.notes, on_event)
 }
 
-/// Passes on what the user should know of the models: how they were read, how exact they are, and where they stand.
+/// Passes on the notes on the models: how they were read, how exact they are, and where they stand.
 ///
 /// # Errors
 /// [`StudyError::Interrupted`] if the listener ends the work.
@@ -106,7 +106,7 @@ pub(crate) fn note_models(notes: &[Message], on_event: &mut OnEvent<'_>) -> Resu
     notes.iter().try_for_each(|note| tell(on_event, Event::Note(note.clone())))
 }
 
-/// Adds what an event notes, unless it is known or added already.
+/// Collects the note of an event, unless it is known or already collected.
 pub(crate) fn gather(event: &Event<'_>, known: &[Message], notes: &mut Vec<Message>) {
     if let Event::Note(note) = event
         && !known.contains(note)
@@ -116,20 +116,20 @@ pub(crate) fn gather(event: &Event<'_>, known: &[Message], notes: &mut Vec<Messa
     }
 }
 
-/// Says where the hours are of the instants alone, although times of change are asked.
+/// A note if hours are summed from the instants alone although times of change were requested.
 pub(super) fn note_instants_alone(site: &Site, found_secs: u32, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     if found_secs > 0 || !Gaps::new(site, site.track.resolution_secs).any() {
         return Ok(());
     }
     let note = message![
-        "hours are summed of the instants alone: between them the light's changes are found by exact techniques, with the \
-         sun as a point";
-        "take such a technique, or ", (Field::Resolution, "step"), " to ask for no more"
+        "hours are summed from the instants alone: only exact techniques, with the \
+         sun as a point, find the light's changes between them";
+        "choose such a technique, or set ", (Field::Resolution, "step")
     ];
     tell(on_event, Event::Note(note))
 }
 
-/// Says when the plan is done in tiles.
+/// A note if the plan is done in tiles.
 pub(super) fn note_tiles(tiles: &[Tile], on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     let [first, _, ..] = tiles else { return Ok(()) };
     let [width, height] = first.size;

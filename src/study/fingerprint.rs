@@ -1,8 +1,8 @@
-//! The fingerprint of a study: a number made of everything that its result depends on, so that no study continues from
-//! the sums of another one.
+//! The fingerprint of a study: a hash of everything that its result depends on, so that no study continues from the
+//! sums of another one.
 //!
-//! What is hashed is listed here, field by field with names and as little-endian bytes, by SipHash-1-3 with the keys 0.
-//! Every compiler and machine gets the same number.
+//! This file lists what is hashed: named fields as little-endian bytes, with SipHash-1-3 and the keys 0. All compilers
+//! and machines compute the same number.
 
 use super::Wants;
 use crate::choice::Receivers;
@@ -13,11 +13,11 @@ use crate::view::{Grid, Tile};
 use siphasher::sip::SipHasher13;
 use std::hash::Hasher;
 
-/// The fields so far.
+/// The fields hashed so far.
 struct Fields(SipHasher13);
 
 impl Fields {
-    /// A field: how long its name is, and that; how many bytes it has, and those.
+    /// Adds a field: the length of its name, its name, the number of its bytes, and the bytes.
     fn bytes(&mut self, name: &str, bytes: &[u8]) {
         for part in [name.as_bytes(), bytes] {
             self.0.write(&(part.len() as u64).to_le_bytes());
@@ -25,7 +25,7 @@ impl Fields {
         }
     }
 
-    /// A field of numbers, which may be none.
+    /// Adds a field of numbers, which may be empty.
     fn numbers<const N: usize>(&mut self, name: &str, numbers: impl IntoIterator<Item = [u8; N]>) {
         let numbers: Vec<[u8; N]> = numbers.into_iter().collect();
         self.bytes(name, numbers.as_flattened());
@@ -35,7 +35,7 @@ impl Fields {
         self.numbers(name, flags.iter().map(|&flag| [u8::from(flag)]));
     }
 
-    /// A field of text that is left out where there is none.
+    /// Adds a field of text, if there is one.
     fn text(&mut self, name: &str, text: Option<&str>) {
         if let Some(text) = text {
             self.bytes(name, text.as_bytes());
@@ -43,16 +43,16 @@ impl Fields {
     }
 }
 
-/// Of a study that a machine draws in tiles. The same for the same request, and for another one another.
+/// The fingerprint of a study that a machine draws in tiles: equal for equal requests, and different for others.
 pub(super) fn of(site: &Site, drawn: &Provenance, tiles: &[Tile], wants: &Wants) -> u64 {
     let mut fields = Fields(SipHasher13::new());
-    // another version may draw otherwise
+    // another version may draw differently
     fields.text("gnomon", Some(env!("CARGO_PKG_VERSION")));
     add_scene(&mut fields, site);
     add_plan(&mut fields, &site.grid, tiles);
     add_instants(&mut fields, site);
     add_wants(&mut fields, wants);
-    // what is asked of techniques, and what that came to
+    // the settings as requested, and as used
     add_settings(&mut fields, "asked", &site.settings);
     add_settings(&mut fields, "drawn", &drawn.settings);
     let Provenance { technique, finder, engine, adapter, settings: _, resolution_secs } = drawn;
@@ -64,7 +64,7 @@ pub(super) fn of(site: &Site, drawn: &Provenance, tiles: &[Tile], wants: &Wants)
     fields.0.finish()
 }
 
-/// Of a study on patches, whose patches have so many texels of so many metres.
+/// The fingerprint of a study on patches with this number of texels of this size in metres.
 pub(super) fn of_patches(site: &Site, drawn: &Provenance, choice: &str, (cell, texels): (f64, usize)) -> u64 {
     let mut fields = Fields(SipHasher13::new());
     fields.text("gnomon", Some(env!("CARGO_PKG_VERSION")));
@@ -114,7 +114,7 @@ fn add_instants(fields: &mut Fields, site: &Site) {
     fields.numbers("nights", instants.iter().map(|instant| [u8::from(instant.night)]));
 }
 
-/// What is searched between instants, where anything is.
+/// Adds the search between instants, if there is one.
 fn add_resolution(fields: &mut Fields, site: &Site, resolution_secs: u32) {
     if resolution_secs > 0 {
         fields.numbers("resolution", [resolution_secs.to_le_bytes()]);
@@ -122,13 +122,13 @@ fn add_resolution(fields: &mut Fields, site: &Site, resolution_secs: u32) {
     }
 }
 
-/// What is written while it goes on is not there for instants that were drawn without it.
+/// Adds what is written during the study: files of instants that were drawn without it would be missing.
 fn add_wants(fields: &mut Fields, wants: &Wants) {
-    // the budget is in the tiles, and of lines and surface nothing is kept
+    // the tiles reflect the budget; lines and surface leave nothing behind
     let Wants { masks, bits, masks_in, lines: _, surface: _, statistics, keep_every, budget: _ } = wants;
     fields.flags("masks, bits, statistics, kept", &[*masks, *bits, *statistics, keep_every.is_some()]);
     if let Some(folder) = masks_in {
-        // a name in Unicode is UTF-8, and any other one at least tells folders apart
+        // a Unicode name is UTF-8; for any other the bytes at least distinguish folders
         fields.bytes("masks in", folder.as_os_str().as_encoded_bytes());
     }
 }

@@ -1,4 +1,4 @@
-//! Every instant of a study as a picture, including those at night.
+//! Draws every instant of a study as a picture, including those at night.
 
 use super::again::persist;
 use super::chooser::{choose, not_patches};
@@ -12,27 +12,28 @@ use crate::sun::SunTrack;
 use crate::view::{Mask, Surface, View};
 use std::sync::Arc;
 
-/// One frame.
+/// One frame of an animation.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame<'a> {
-    /// The track of its instant alone.
+    /// A track with only its instant.
     pub track: &'a SunTrack,
     /// The share of the sun that each cell sees.
     pub mask: &'a Mask,
     /// What the cells see; the same in all frames.
     pub surface: &'a Surface,
-    /// The mesh whose faces are in [`Surface::face`].
+    /// The mesh to which [`Surface::face`] refers.
     pub surface_mesh: &'a Mesh,
-    /// What was judged.
+    /// The receivers that were judged.
     pub receivers: Receivers,
     /// What drew the mask.
     pub drawn: &'a Provenance,
 }
 
-/// As `study::instant` for every instant of the study, keeping resources from one to the next. Returns what drew them.
+/// Draws as `study::instant` for every instant of the study, but keeps resources from one to the next. Returns what
+/// drew them.
 ///
 /// # Errors
-/// [`StudyError`], and what `on_frame` says.
+/// [`StudyError`], and the errors of `on_frame`.
 pub fn frames<E: From<StudyError>>(
     site: &Site,
     view: View,
@@ -41,7 +42,7 @@ pub fn frames<E: From<StudyError>>(
 ) -> Result<Provenance, E> {
     not_patches(site)?;
     note_site(site, on_event)?;
-    // each frame says itself what drew it: those that were given out stay
+    // frames that were already delivered keep their own provenance
     let (mut given, mut fault) = (0, None);
     let drawn = persist(site, true, on_event, &mut |site, gpu, on_event| {
         let first = given;
@@ -59,7 +60,7 @@ pub fn frames<E: From<StudyError>>(
     }
 }
 
-/// The frames from one on, by one machine.
+/// Draws the frames from one on, on one machine.
 fn from(
     first: usize,
     gpu: Option<&Arc<Gpu>>,
@@ -84,7 +85,7 @@ fn from(
     for (index, (instant, track)) in site.track.instants.iter().zip(site.track.each()).enumerate().skip(first) {
         let lit = if instant.night { None } else { Some(technique.draw(instant.to_sun)?.read()?) };
         let mask = lit.as_ref().unwrap_or(&dark);
-        // told once where the same holds again and again
+        // a repeated note is reported once
         let note = technique.note().filter(|note| noted.as_ref() != Some(note));
         if let Some(note) = note {
             tell(on_event, Event::Note(note.clone().into()))?;

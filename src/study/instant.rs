@@ -1,4 +1,4 @@
-//! The shadows of one instant, seen from above, from a side or by a camera.
+//! The shadows of one instant, in the plan, from a side or in a camera's picture.
 
 use super::again::persist;
 use super::chooser::{choose, counting, not_patches, stencil_alone};
@@ -12,9 +12,9 @@ use crate::sun::Instant;
 use crate::view::{Mask, Overlay, Tile, View};
 use std::sync::Arc;
 
-/// The shadows of the track's first instant. At night nothing sees the sun, and a note says so.
+/// Draws the shadows at the track's first instant. At night nothing sees the sun, and a note says so.
 ///
-/// A camera always judges what it sees; [`Site::receivers`] is the plan's.
+/// [`Site::receivers`] applies to the plan. A camera always judges what it sees.
 ///
 /// # Errors
 /// [`StudyError`].
@@ -26,7 +26,7 @@ pub fn instant(
 ) -> Result<InstantOutcome, StudyError> {
     not_patches(site)?;
     note_site(site, on_event)?;
-    // volumes are drawn on an adapter alone, and counted there
+    // only an adapter draws and counts volumes
     let can = !wants.volumes && !wants.silhouette && wants.counted.is_none();
     persist(site, can, on_event, &mut |site, gpu, on_event| once(gpu, site, view, wants, on_event))
 }
@@ -85,12 +85,12 @@ fn once(
     Ok(InstantOutcome { mask, surface, overlay, counted, surface_mesh, timings, drawn })
 }
 
-/// Whether anything of the volumes is laid over the picture.
+/// Whether volumes or silhouettes are laid over the picture.
 fn shows_volumes(wants: &InstantWants) -> bool {
     wants.volumes || wants.silhouette
 }
 
-/// The tiles of a plan; none of another view. Returns an error if what counting took is wanted of more than one.
+/// The tiles of a plan; empty for other views. Counts are refused if there are several tiles.
 fn tiles_of(look: &SiteView<'_>, wants: &InstantWants) -> Result<Vec<Tile>, StudyError> {
     let tiles = match look.view {
         View::Plan(grid) => tiles::of_instant(grid, subject_of(look.site, &look.view), look.machine),
@@ -99,7 +99,7 @@ fn tiles_of(look: &SiteView<'_>, wants: &InstantWants) -> Result<Vec<Tile>, Stud
     match (tiles.first().filter(|tile| !tile.is_whole()), wants.counted) {
         (Some(_), Some(counted)) => {
             let message = message![
-                "the plan is done in tiles, and what counting took is reported for the whole";
+                "the plan is done in tiles, and counts are reported only for a whole plan";
                 "take larger cells", aside(Field::Cell), ", or leave it out"
             ];
             Err(StudyError::Conflict { field: counted.field(), message })
@@ -108,7 +108,7 @@ fn tiles_of(look: &SiteView<'_>, wants: &InstantWants) -> Result<Vec<Tile>, Stud
     }
 }
 
-/// Says that it is night, and what is not to be seen therefore.
+/// Notes that it is night, and what cannot be shown therefore.
 fn note_night(instant: &Instant, wants: &InstantWants, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     let below = -instant.altitude_deg();
     tell(
@@ -124,7 +124,7 @@ fn note_night(instant: &Instant, wants: &InstantWants, on_event: &mut OnEvent<'_
     Ok(())
 }
 
-/// What is laid over the picture, where that is wanted; a note where it is empty.
+/// The overlay of the picture if it was requested, and a note if it is empty.
 fn overlay_of(
     look: &SiteView<'_>,
     wants: &InstantWants,
@@ -133,13 +133,13 @@ fn overlay_of(
 ) -> Result<Option<Overlay>, StudyError> {
     let overlay = look.overlay(wants, instant.to_sun)?;
     if overlay.as_ref().is_some_and(Overlay::is_empty) {
-        let note = "neither volumes nor silhouette are to be seen: no caster stands above the ground in this view";
+        let note = "there are no volumes and no silhouette to see: no caster stands above the ground in this view";
         tell(on_event, Event::Note(note.to_owned().into()))?;
     }
     Ok(overlay)
 }
 
-/// The plan's mask, tile by tile; `technique` is the first one's.
+/// Draws the plan's mask tile by tile; `technique` is made for the first one.
 fn in_tiles(
     look: &SiteView<'_>,
     technique: &mut dyn Technique,
@@ -162,7 +162,7 @@ fn in_tiles(
         for (to, from) in rows.zip(part.share.chunks_exact(part.width as usize)) {
             to[left..left + from.len()].copy_from_slice(from);
         }
-        // the last one is told with the whole mask
+        // the last tile is reported with the whole mask
         if index + 1 < tiles.len() {
             let drawn = Event::Drawn { index, count: tiles.len(), time: instant.time, mask: None, bits: None };
             tell(on_event, drawn)?;

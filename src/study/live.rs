@@ -1,6 +1,6 @@
-//! A site that is looked at: one view after another and one sun after another, on an adapter that stays open.
+//! Draws a site in one view after another and under one sun after another, on an adapter that stays open.
 //!
-//! The same techniques draw as in `study::instant`. The only difference is what is kept between two pictures.
+//! The techniques are those of `study::instant`; what differs is that resources are kept between pictures.
 
 use super::chooser::choose;
 use super::machine::Machine;
@@ -18,7 +18,7 @@ use glam::DVec3;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-/// How far away an eye may be, in lengths of the models: for rays that begin there rounding is allowed for.
+/// The greatest distance of an eye, in lengths of the models. The allowance for rounding in rays covers it.
 pub(crate) const FARTHEST: f64 = 40.0;
 
 /// How shadows are found in a view.
@@ -31,39 +31,39 @@ pub struct LiveMethod {
 }
 
 impl LiveMethod {
-    /// The quickest way on a software adapter: rays, one per pixel.
+    /// The fastest method on a software adapter: rays, one per pixel.
     ///
-    /// What a map or volumes cost grows with the model, and a quick look has few pixels; at a few hundred a side a map
-    /// takes about as long as rays do on the tower (docs/benchmarks/desktop.md), and has coarse edges.
+    /// The cost of maps and volumes grows with the model, and a quick look has few pixels. At a few hundred pixels a
+    /// side, a map takes about as long as rays do on the tower (docs/benchmarks/desktop.md), and has coarse edges.
     pub fn quickest() -> LiveMethod {
         LiveMethod { method: Method::RayCast, settings: Settings::default() }
     }
 }
 
-/// A site, a view of it, and what draws the two.
+/// A site, a view of it, and the resources that draw it.
 pub struct Live {
     gpu: Arc<Gpu>,
-    /// What is asked, without the models.
+    /// The site without its models.
     site: Site,
     view: View,
     scene: Scene,
     picture: Picture,
-    /// What the picture looks at now, and whether rays told it.
+    /// The view of the picture's current surfaces, and whether rays computed them.
     looks_at: (View, bool),
-    /// The technique, the view that it is turned to, and the way that it was made for.
+    /// The technique, the view that it is turned to, and the method that it was made for.
     made: Option<(View, LiveMethod, Box<dyn Technique>)>,
-    /// Rays turn to another view at once; they go to so many points of the sun.
+    /// Ray casting turns to another view at no cost. It has this many samples of the sun.
     rays: Option<(RayCast, Option<u32>)>,
-    /// Volumes and silhouette, before the camera that they were shown to last.
+    /// The volumes and silhouette, with the camera that they were last drawn for.
     volumes: Option<VolumePicture>,
     night: Mask,
 }
 
 impl Live {
-    /// Uploads the site, and draws what is seen.
+    /// Uploads the site, and draws what the view sees.
     ///
     /// # Errors
-    /// [`StudyError::Shadow`] where the adapter cannot hold it.
+    /// [`StudyError::Shadow`] if the adapter cannot hold it.
     pub fn new(site: &Site, gpu: Arc<Gpu>, view: View) -> Result<Live, StudyError> {
         let casters = site.mesh.of_components(&site.casts);
         let receivers = site.mesh.of_components(&site.receives);
@@ -83,8 +83,8 @@ impl Live {
         })
     }
 
-    /// Takes the site as it is written now, if the same models receive in the same way, and keeps everything that does
-    /// not depend on the rest. Returns `false` if the scene is another.
+    /// Takes over a changed site, if the same models receive in the same way, and keeps everything that does not depend
+    /// on the change. Returns `false` if the scene is a different one.
     pub fn change_to(&mut self, site: &Site) -> bool {
         let seen = |of: &Site| (of.receives.clone(), of.ground.level);
         let is_same_mesh = Arc::ptr_eq(&self.scene.receivers.vertices, &site.mesh.vertices);
@@ -104,12 +104,12 @@ impl Live {
         true
     }
 
-    /// The picture, over which something may be laid.
+    /// The picture, to lay something over it.
     pub fn picture(&mut self) -> &mut Picture {
         &mut self.picture
     }
 
-    /// Turns to another view. What was laid over the old view alone is removed.
+    /// Turns to another view. What was laid over the old view is removed.
     pub fn look_at(&mut self, view: View) {
         if view != self.view {
             (self.view, self.night) = (view, night(&view));
@@ -117,11 +117,11 @@ impl Live {
         self.picture.clear();
     }
 
-    /// Draws the view under a sun into the target (of [`Picture::target`]), and returns what drew it. Below the horizon
-    /// it is night.
+    /// Draws the view under a sun into the target (of [`Picture::target`]), and returns what drew it. If the sun is
+    /// below the horizon it is night.
     ///
     /// # Errors
-    /// [`StudyError::Misfit`] where the way does not go with the view; else what drawing says.
+    /// [`StudyError::Misfit`] if the method does not fit the view; otherwise errors of drawing.
     pub fn draw(
         &mut self,
         way: &LiveMethod,
@@ -161,7 +161,7 @@ impl Live {
         Ok(drawn)
     }
 
-    /// How much work counting takes for that sun in this view, if the technique counts.
+    /// Returns how much counting the sun takes in this view, if the technique counts.
     ///
     /// # Errors
     /// As [`Live::draw`].
@@ -177,13 +177,13 @@ impl Live {
     /// Lays shadow volumes and silhouette over a camera's view.
     ///
     /// # Errors
-    /// What drawing says.
+    /// Errors of drawing.
     pub fn lay_overlay(&mut self, to_sun: DVec3, volumes: bool, silhouette: bool) -> Result<(), StudyError> {
         let View::Camera(camera) = self.view else { return Ok(()) };
         if to_sun.z <= 0.0 || !(volumes || silhouette) {
             return Ok(());
         }
-        // twice as fine, so that lines are as thin as in a drawing
+        // twice the resolution, so that lines are as thin as in a drawing
         let most = self.gpu.limits.max_texture_dimension_2d;
         let times = if camera.width.max(camera.height) * 2 <= most { 2 } else { 1 };
         let fine = Camera { width: camera.width * times, height: camera.height * times, ..camera };
@@ -201,19 +201,19 @@ impl Live {
         Ok(())
     }
 
-    /// Who draws, as the command chooses.
+    /// The machine that the command would choose.
     fn machine(&mut self, way: &LiveMethod) -> Result<Machine, StudyError> {
         (self.site.method, self.site.settings) = (way.method, way.settings);
         choose(Some(&self.gpu), &self.site, &self.view, &mut |_| ControlFlow::Continue(()))
     }
 }
 
-/// What is asked; a live view judges all that it sees.
+/// The site without its models. A live view judges everything that it sees.
 fn without_models(site: &Site) -> Site {
     Site { mesh: site.mesh.of_components(&[]), receivers: Receivers::Top, ..site.clone() }
 }
 
-/// The technique at hand, turned to the view; a new one where it does not turn, or was made for another way.
+/// The current technique, turned to the view; a new one if it cannot turn or was made for a different method.
 fn made<'a>(
     at_hand: &'a mut Option<(View, LiveMethod, Box<dyn Technique>)>,
     machine: Machine,
@@ -231,7 +231,7 @@ fn made<'a>(
     Ok(&mut at_hand.insert((view, way, technique)).2)
 }
 
-/// A view of one cell from as far away as any, for rays that are to turn to all others.
+/// A view with one cell from the greatest distance, for rays that will turn to all other views.
 pub(crate) fn far_view(scene: &Scene) -> View {
     let (low, high) = scene.receivers.bounds().or(scene.casters.bounds()).unwrap_or_default();
     let length = (high - low).length().max(1.0) * FARTHEST;

@@ -1,4 +1,4 @@
-//! A technique, with everything that it needs, made for a view.
+//! A technique with everything that it needs to be made for a view.
 
 use super::{StudyError, Wants, subject};
 use crate::choice::{Engine, Finder, Method, MethodRow, Misfit, Receivers, Settings, Subject};
@@ -17,32 +17,32 @@ use crate::site::{GroundKind, Site};
 use crate::view::{Tile, View};
 use std::sync::Arc;
 
-/// A technique with all that it needs to be made for a view.
+/// A technique with everything that it needs to be made for a view.
 #[derive(Clone)]
 pub(super) struct Machine {
     /// Never [`Method::Auto`].
     method: Method,
-    /// The adapter that draws; the processor does where there is none.
+    /// The adapter that draws; without one, the processor draws.
     gpu: Option<Arc<Gpu>>,
-    /// Who finds silhouettes, where the technique has any.
+    /// The finder of silhouettes, if the technique uses one.
     silhouettes: Option<Silhouettes>,
     settings: Settings,
 }
 
 impl Machine {
-    /// A technique as a site sets it, on the processor.
+    /// A technique with a site's settings, on the processor.
     pub(super) fn on_processor(method: Method, site: &Site) -> Machine {
         Machine { method, gpu: None, silhouettes: None, settings: method.row().set(&site.settings) }
     }
 
-    /// A technique as a site sets it, on an adapter.
+    /// A technique with a site's settings, on an adapter.
     pub(super) fn on(gpu: Arc<Gpu>, method: Method, site: &Site) -> Machine {
         let row = method.row();
         let silhouettes = (!row.finders.is_empty()).then(|| silhouettes(row, site, &gpu));
         Machine { method, silhouettes, settings: row.set(&site.settings), gpu: Some(gpu) }
     }
 
-    /// Rays to so many points of the sun's disc, or to its centre.
+    /// Ray casting with this number of samples of the sun's disc, or to its centre.
     pub(super) fn rays(sun_samples: Option<u32>) -> Machine {
         let settings = Settings { sun_samples, ..Settings::NONE };
         Machine { method: Method::RayCast, gpu: None, silhouettes: None, settings }
@@ -78,30 +78,31 @@ impl Machine {
         }
     }
 
-    /// What it draws over a site's track: of the times of change between its instants, too, where it finds them.
+    /// The provenance over a site's track; it includes the search between instants, if the technique does one.
     pub(super) fn drawn_over(&self, site: &Site, subject: Subject) -> Provenance {
         let finds = self.method.row().finds_changes(subject, self.settings.sun_samples);
         Provenance { resolution_secs: if finds { site.track.resolution_secs } else { 0 }, ..self.drawn() }
     }
 
-    /// What a cell of the plan takes at the most, bytes. Measured (docs/benchmarks/growth.md), and rounded up.
+    /// An upper bound of the memory for a cell of the plan, bytes. Measured (docs/benchmarks/growth.md), and rounded
+    /// up.
     pub(super) fn cell_bytes(&self, subject: Subject, wants: &Wants, searches: bool) -> u64 {
         let drawing = match (self.method, &self.gpu, subject) {
-            // sums, and their copy while they are kept
+            // sums, and their copy while the state is stored
             (Method::Projected, None, Subject::Ground) => 14,
-            // what is seen, and the points that are judged, three times over while they are sorted
+            // surfaces and judged points, three times while they are sorted
             (Method::Projected, None, _) => 160,
             (_, None, _) => 36,
-            // textures of what is seen, of the depth that is judged, of mask and sums; and what is read back
+            // textures of surfaces, judged depth, mask and sums, and the buffer that is read back
             (_, Some(_), _) => 64,
         };
-        // bits of both ends of a gap and of each halving
+        // bits of both ends of a gap, and of each halving
         let search = if searches && self.gpu.is_none() { 4 } else { 0 };
-        // bits twice; fragments as they are added up, and as they are read
+        // bits twice; fragments as they are summed, and as they are read back
         drawing + search + u64::from(wants.bits) + if wants.statistics { 32 } else { 0 }
     }
 
-    /// The most columns and rows that are drawn at once.
+    /// The greatest number of columns and rows that can be drawn at once.
     pub(super) fn most_cells(&self) -> Option<u32> {
         self.gpu.as_ref().map(|gpu| gpu.limits.max_texture_dimension_2d)
     }
@@ -119,7 +120,7 @@ impl Machine {
         self.made(scene, view, whole)
     }
 
-    /// Each technique is made here, in a line. What [`MethodRow::fit`] lets through has one; all else is no technique's.
+    /// Makes each technique, one per line. [`MethodRow::fit`] lets only existing combinations through.
     fn made(&self, scene: Scene, view: View, tile: Option<Tile>) -> Result<Box<dyn Technique>, StudyError> {
         let none =
             Misfit::Technique { method: self.method, subject: subject(&view, Receivers::Top, GroundKind::Plane) };
@@ -150,11 +151,11 @@ impl Machine {
     }
 }
 
-/// Who finds silhouettes, as asked; else the fastest for the adapter.
+/// The finder that was requested, otherwise the fastest for the adapter.
 ///
-/// Measured (docs/benchmarks/silhouettes.md): where the adapter is a program on the processor, the processor's hierarchy
-/// takes less time than a shader's pass over all edges. A real adapter has that pass for nothing beside the drawing, and
-/// is spared the upload of what is found.
+/// Measured (docs/benchmarks/silhouettes.md): on a software adapter the processor's hierarchy takes less time than a
+/// shader's pass over all edges. On a real adapter that pass costs nothing beside the drawing, and saves the upload of
+/// silhouettes.
 fn silhouettes(row: &MethodRow, site: &Site, gpu: &Gpu) -> Silhouettes {
     let is_quicker = site.finder == Finder::Auto && !gpu.software();
     if row.finders.contains(&Finder::Gpu) && (site.finder == Finder::Gpu || is_quicker) {

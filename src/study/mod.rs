@@ -1,11 +1,11 @@
-//! The flow: a checked request goes in, its shadow profile comes out.
+//! The flow: a checked request goes in, and its shadow profile comes out.
 //!
-//! [`run`] and [`in_tiles`] read as the whole program does. [`TiledStudy`] is for a program that distributes the parts
-//! of a study.
+//! [`run`] and [`in_tiles`] show the flow of the whole program. [`TiledStudy`] is for a program that distributes the
+//! parts of a study.
 
-// Beside them is what the deliverables call: `instant` is one instant's shadows, `frames` every instant as a picture,
-// `patches` the study on façades and roofs, `compare` that of two states of a site. `verify` holds every technique against
-// ray casting, `probe` finds when single points lie in the sun, and `live` draws one picture after another for the window.
+// The deliverables also call: `instant` for one instant's shadows, `frames` for every instant as a picture, `patches`
+// for façades and roofs, `compare` for two states of a site. `verify` compares every technique with ray casting,
+// `probe` finds when single points lie in the sun, and `live` draws one picture after another for the window.
 
 #[doc(hidden)]
 pub mod again;

@@ -1,11 +1,11 @@
-//! The answers of a study, and of one instant.
+//! The outcomes of a study and of one instant.
 
 use crate::mesh::Mesh;
 use crate::message::Message;
 use crate::profile::{Profile, Provenance, Statistics, Timings};
 use crate::view::{FragmentCounts, Mask, Overlay, Surface};
 
-/// The answer to a study.
+/// The result of a study.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// The shaded time.
@@ -19,13 +19,13 @@ pub struct Outcome {
     pub surface_mesh: Mesh,
     /// The statistics of counting, if wanted.
     pub statistics: Option<Statistics>,
-    /// What was noted beside the site's own notes.
+    /// Notes besides the site's own.
     pub notes: Vec<Message>,
     /// The stages `prepare` and `shadows`.
     pub timings: Timings,
 }
 
-/// The answer for one instant.
+/// The result of one instant.
 #[derive(Clone, Debug)]
 pub struct InstantOutcome {
     /// The share of the sun that each cell sees.

@@ -1,4 +1,4 @@
-//! Time in the sun on patches: its instants, and between them the times at which texels change.
+//! Sums the time in the sun on patches: the instants, and the times between them at which texels change.
 
 use super::StudyError;
 use super::gaps::{Gap, Gaps};
@@ -7,12 +7,12 @@ use crate::site::Site;
 use crate::sun::{Instant, SunError, disc};
 use glam::DVec3;
 
-/// The running sum, in the texels of a texture.
+/// The running sum for the texels of a texture.
 pub(super) struct PatchSum<'a> {
     site: &'a Site,
     gaps: Gaps<'a>,
     texture: &'a mut SoftTexture,
-    /// Which texels see the sun at an instant that begins a gap, and which instant it is.
+    /// The instant at which the current gap begins, and which texels see the sun then.
     before: Option<(usize, Vec<u8>)>,
 }
 
@@ -21,7 +21,7 @@ impl<'a> PatchSum<'a> {
         PatchSum { site, gaps: Gaps::new(site, resolution_secs), texture, before: None }
     }
 
-    /// Goes on from sums that were added before.
+    /// Continues from earlier sums.
     pub(super) fn begin_with(&mut self, sums: &[u32]) {
         self.texture.begin_with(sums);
     }
@@ -47,7 +47,7 @@ impl<'a> PatchSum<'a> {
         let before = match (gap, self.before.take()) {
             (None, _) => None,
             (_, Some((last, seen))) if last + 1 == at => Some(seen),
-            // the study goes on here
+            // the study continues here
             _ => Some(self.texture.seen(self.site.track.instants[at - 1].to_sun)?),
         };
         let after = self.texture.seen(instant.to_sun)?;
@@ -59,8 +59,8 @@ impl<'a> PatchSum<'a> {
         Ok(())
     }
 
-    /// The same where an adapter fills textures, which stay there: all moments are drawn, as instants of a study that is
-    /// stepped at the resolution. What changes more than once in a gap is found, too.
+    /// The same for an adapter, which fills textures that stay on it. All moments are drawn, like the instants of a
+    /// study whose step is the resolution, so that a texel that changes several times in a gap is right, too.
     fn add_by_steps(&mut self, at: usize) -> Result<(), StudyError> {
         let sample = |to_sun: DVec3, weight: u32| Sample { light: to_sun.extend(0.0), weight };
         let mut samples = Vec::new();
@@ -73,13 +73,13 @@ impl<'a> PatchSum<'a> {
     }
 }
 
-/// The moments of a gap, with those of its ends.
+/// The moments of a gap, including its ends.
 fn searched(gap: &Gap<'_>) -> Result<Vec<Moment>, SunError> {
     let moment = |step| Ok(Moment { to_sun: gap.sun_at(step)?, secs_before_change: gap.secs_before_change(step) });
     (0..=gap.steps()).map(moment).collect()
 }
 
-/// An instant's samples: the sun's centre, or points of its disc.
+/// The samples of an instant: the sun's centre, or points of its disc.
 fn samples_of(instant: &Instant, sun_samples: Option<u32>) -> Vec<Sample> {
     let sample = |to_sun: DVec3| Sample { light: to_sun.extend(0.0), weight: instant.weight_secs };
     match sun_samples {

@@ -22,27 +22,27 @@ use std::cell::RefCell;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// The answer to a study on patches.
+/// The result of a study on patches.
 #[derive(Clone, Debug)]
 pub struct PatchOutcome {
     /// The patches of those components of [`Site::mesh`] that receive.
     pub patches: Arc<Patches>,
     /// Their time in the sun.
     pub hours: PatchHours,
-    /// How they were judged.
+    /// How many judgements were made, and how.
     pub judged: PatchJudgements,
     /// What judged them.
     pub drawn: Provenance,
     /// The graphics adapter's memory that was used, bytes; 0 without an adapter.
     pub gpu_bytes: u64,
-    /// What was noted beside [`Site::notes`].
+    /// Notes besides [`Site::notes`].
     pub notes: Vec<Message>,
     /// The stages `prepare` and `shadows`.
     pub timings: Timings,
 }
 
-/// The hours of sun on patches, with texels of `cell` metres. The texels are larger if there would be too many, and a
-/// note says so. Nothing is kept.
+/// Finds the hours of sun on patches, with texels of `cell` metres. If there would be too many, the texels are larger,
+/// and a note says so. The state is not kept.
 ///
 /// # Errors
 /// As [`patches_kept`].
@@ -51,17 +51,17 @@ pub fn patches(site: &Site, cell: f64, on_event: &mut OnEvent<'_>) -> Result<Pat
     patches_kept(site, cell, None, on_event)
 }
 
-/// Hours of sun on patches, with texels of `cell` metres; larger ones where there would be too many, which a note says.
+/// Finds the hours of sun on patches, with texels of `cell` metres. If there would be too many, the texels are larger,
+/// and a note says so.
 ///
-/// Each instant is a sample of the sun's centre, or with [`Settings::sun_samples`] as many of its disc, for
-/// its weight. What lies below the ground plane sees no sun.
+/// At each instant the sun's centre, or with [`Settings::sun_samples`] that many points of its disc, count with the
+/// instant's weight. Nothing below the ground's plane sees the sun.
 ///
-/// For a caller that keeps what is done so far [`Event::Prepared`] asks for what was kept, and [`Event::Kept`] brings
-/// what is to be kept: each time that so long has passed, and when the work is ended. Sums are the same to the bit;
-/// [`PatchOutcome::judged`] counts this run alone.
+/// A caller that keeps the state can supply it at [`Event::Prepared`], and gets it in [`Event::Kept`] at intervals and
+/// when the work is ended. The sums are the same to the bit; [`PatchOutcome::judged`] counts only this run.
 ///
 /// # Errors
-/// [`StudyError`]; choices that do not fit and windows that are too long before anything is drawn.
+/// [`StudyError`]. Contradictory choices and windows that are too long are refused before anything is drawn.
 pub(crate) fn patches_kept(
     site: &Site,
     cell: f64,
@@ -94,7 +94,7 @@ pub(crate) fn patches_kept(
     Ok(PatchOutcome { notes, ..outcome })
 }
 
-/// Lets the sun fall on the patches, by one machine.
+/// Computes the sunlight on the patches, on one machine.
 fn light(
     site: &Site,
     choice: Choice,
@@ -123,7 +123,7 @@ fn light(
     Ok(PatchOutcome { patches, hours, judged, drawn, gpu_bytes, notes: Vec::new(), timings })
 }
 
-/// How what is done is kept.
+/// How often the state is kept, and the study's fingerprint.
 #[derive(Clone, Copy)]
 struct Keeping {
     every: Duration,
@@ -189,13 +189,13 @@ fn provenance(site: &Site, choice: Choice, painter: &Painter) -> Provenance {
     }
 }
 
-/// How near together times of change are found: those of a disc's light are not.
+/// The precision of times of change; 0 for a disc, whose light has none.
 fn resolution_secs(site: &Site) -> u32 {
     let finds = site.method.row().finds_changes(Subject::Patches, site.settings.sun_samples);
     if finds { site.track.resolution_secs } else { 0 }
 }
 
-/// Which study it is.
+/// The study's fingerprint.
 fn number(site: &Site, drawn: &Provenance, choice: Choice, patches: &Patches) -> u64 {
     let choice = match choice {
         Choice::Texture => "texture",
@@ -205,7 +205,8 @@ fn number(site: &Site, drawn: &Provenance, choice: Choice, patches: &Patches) ->
     fingerprint::of_patches(site, drawn, choice, (patches.cell, patches.texels.len()))
 }
 
-/// What the site's camera sees of what receives, for a drawing of the patches, and the mesh whose faces it counts.
+/// What the site's camera sees of the receivers, for a drawing of the patches, and the mesh that its face indices refer
+/// to.
 ///
 /// # Errors
 /// [`StudyError`].
@@ -217,27 +218,27 @@ pub(crate) fn seen_receivers(site: &Site) -> Result<(Mesh, Surface), StudyError>
     Ok((receivers, surface))
 }
 
-/// How patches are judged, as asked.
+/// The technique that judges patches.
 fn choice(site: &Site) -> Result<Choice, Misfit> {
     let (method, subject) = (site.method, Subject::Patches);
     method.row().fit(site.engine, subject)?;
-    // of auto's two techniques one uses as much as the other
+    // both techniques that `auto` may choose use the same options
     let row = if method == Method::Auto { Method::SoftTexture.row() } else { method.row() };
     row.check(site.finder, &site.settings, site.engine, subject)?;
     match method {
         Method::Auto => Ok(Choice::Auto),
         Method::SoftTexture => Ok(Choice::Texture),
         Method::RayCast => Ok(Choice::Rays),
-        // none of these draws patches; a technique that does has its line above
+        // none of these judges patches; a technique that does has a line above
         Method::Stencil | Method::Projected | Method::ShadowMap | Method::Hybrid | Method::Smoothie => {
             Err(Misfit::Technique { method, subject })
         }
     }
 }
 
-/// Who fills textures, as asked; else a real graphics adapter, and the processor where the adapter is a program on it or
-/// where times of change are searched: the adapter would draw every moment between two instants, the processor asks of few
-/// texels at each.
+/// The engine that fills textures: the requested one, otherwise a real graphics adapter. On a software adapter, and for
+/// times of change, the processor is faster: the adapter would draw every moment between two instants, while the
+/// processor examines few texels at each.
 ///
 /// Measured (docs/benchmarks/receivers.md).
 fn painter(
@@ -263,7 +264,7 @@ fn painter(
     }
 }
 
-/// Notes texels that are coarser than asked, areas that do not count, and patches whose outer side is not known.
+/// Notes coarser texels than requested, areas that do not count, and patches whose outer side is unknown.
 fn note_patches(patches: &Patches, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     if patches.list.is_empty() {
         return Err(StudyError::NoPatch);
@@ -271,16 +272,16 @@ fn note_patches(patches: &Patches, on_event: &mut OnEvent<'_>) -> Result<(), Stu
     if patches.cell > patches.asked_cell {
         let (cell, asked) = (patches.cell, patches.asked_cell);
         let note = message![
-            format!("surfaces have texels of {cell:.3} m in place of {asked:?} m, of which there would be too many");
+            format!("surfaces have texels of {cell:.3} m instead of {asked:?} m, which would be too many");
             "leave components out with ", setting("[[model]]", "receives", "`receives`"), " to have finer ones"
         ];
         tell(on_event, Event::Note(note))?;
     }
     let left_out = [
-        (patches.left_out.doubled_m2, "are there twice and count once"),
+        (patches.left_out.doubled_m2, "exist twice and count once"),
         (
             patches.left_out.touching_m2,
-            "lie between parts that touch, where no sun comes, and are left out of areas and means",
+            "lie between parts that touch, which the sun cannot reach, and are left out of areas and means",
         ),
     ];
     for (area_m2, why) in left_out.into_iter().filter(|(area_m2, _)| *area_m2 > 0.0) {
@@ -300,7 +301,7 @@ fn note_patches(patches: &Patches, on_event: &mut OnEvent<'_>) -> Result<(), Stu
     Ok(())
 }
 
-/// Takes the sun from texels below the ground plane.
+/// Removes the sun from texels below the ground's plane.
 fn darken_underground(patches: &Patches, ground: f64, lit: &mut [u32]) {
     for patch in &patches.list {
         let texels = patch.texels.start as usize..patch.texels.end as usize;

@@ -1,8 +1,8 @@
-//! When points lie in the sun: what the faces take away of each day's way of the sun.
+//! Finds when points lie in the sun: what faces hide of the sun's path on each day.
 //!
-//! A probe lies in sunlight where the sun is above the horizon, in front of the probe's plane if it has one, and a ray
-//! to the sun's centre meets no caster; not below the ground. The answer is that of such a ray at every second, however
-//! short the sun or the shade.
+//! A probe lies in sunlight if the sun is above the horizon and in front of the probe's plane (if it has one), the
+//! probe is not below the ground, and a ray to the sun's centre meets no caster. The result is that of such a ray at
+//! every second, however short the sun or the shade.
 
 use super::{Event, OnEvent, StudyError, note_models, tell};
 use crate::shadow::JUDGED_ABOVE_M;
@@ -14,10 +14,10 @@ use crate::view::Probe;
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// So many days are searched together, of all probes, between two looks at the listener.
+/// The number of days of all probes that are searched together, before the listener can end the work.
 const DAYS_TOGETHER: usize = 32;
 
-/// The intervals in sunlight of all probes, on all days.
+/// Finds the intervals in sunlight of all probes on all days.
 ///
 /// # Errors
 /// [`StudyError`].
@@ -25,8 +25,9 @@ pub fn probe(asked: &ProbeSite, on_event: &mut OnEvent<'_>) -> Result<Sunlight, 
     note_models(&asked.notes, on_event)?;
     let (probes, doubtful) = with_laid(asked);
     if doubtful > 0 {
-        let note =
-            format!("of {doubtful} points that are laid both sides are as open to the sky: the outer side is a guess");
+        let note = format!(
+            "{doubtful} of the laid points are equally open to the sky on both sides: their outer side is a guess"
+        );
         tell(on_event, Event::Note(note.into()))?;
     }
     let points = judged_points(asked, &probes);
@@ -59,11 +60,11 @@ pub fn probe(asked: &ProbeSite, on_event: &mut OnEvent<'_>) -> Result<Sunlight, 
     Ok(sunlight)
 }
 
-/// The slow twin: by rays at the instants of a grid, so many seconds apart, and halving between two that differ. At a step of
-/// one second nothing is missed.
+/// The slow twin: casts rays at the instants of a grid, and bisects between two that differ. At a step of one second
+/// nothing is missed.
 ///
 /// # Errors
-/// As of [`probe`].
+/// As for [`probe`].
 #[cfg(feature = "test-hooks")]
 pub fn probe_by_grid(asked: &ProbeSite, step_secs: i64) -> Result<Sunlight, StudyError> {
     let (probes, _) = with_laid(asked);
@@ -88,7 +89,7 @@ pub fn probe_by_grid(asked: &ProbeSite, step_secs: i64) -> Result<Sunlight, Stud
     })
 }
 
-/// All points, those that are laid on the side that is more open; and of how many of these both sides are alike.
+/// All points, with laid ones on the side that is more open; and the number of laid points with two equal sides.
 fn with_laid(asked: &ProbeSite) -> (Vec<Probe>, usize) {
     let mut probes = asked.probes.clone();
     if asked.laid.is_empty() {
@@ -110,7 +111,8 @@ fn with_laid(asked: &ProbeSite) -> (Vec<Probe>, usize) {
     (probes, doubtful)
 }
 
-/// How far one sees from a point: metres along rays ahead, to both sides, up and down, each as far as a street is wide.
+/// How open the surroundings of a point are: the lengths of rays ahead, to both sides, up and down, each limited to the
+/// width of a street.
 fn openness(rays: &RayCaster, point: DVec3, normal: Option<DVec3>) -> f64 {
     const FAR_M: f64 = 50.0;
     let Some(normal) = normal else { return 0.0 };
@@ -120,12 +122,13 @@ fn openness(rays: &RayCaster, point: DVec3, normal: Option<DVec3>) -> f64 {
     tilted.into_iter().chain([normal]).map(seen).sum()
 }
 
-/// The air that bends the sun's light, where it does.
+/// The air that refracts the sun's light, if refraction is on.
 pub(super) fn air(asked: &ProbeSite) -> Option<Air> {
     asked.refraction.then(|| Air::standard(asked.place.elevation_m))
 }
 
-/// Where probes are judged: one on the terrain, as exactly as its heights are, a millimetre above it, as all receivers are.
+/// Where probes are judged. One on the terrain, within the precision of its heights, is judged a millimetre above it,
+/// as all receivers are.
 pub(super) fn judged_points(asked: &ProbeSite, probes: &[Probe]) -> Vec<JudgedPoint> {
     let terrain: Vec<bool> = match asked.ground.kind {
         GroundKind::Plane => Vec::new(),

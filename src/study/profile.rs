@@ -1,4 +1,4 @@
-//! Adds up every instant's shadows to the time in shadow: of the whole plan at once, or tile by tile.
+//! Sums every instant's shadows to the time in shadow, for the whole plan at once or tile by tile.
 
 use super::again::persist;
 use super::chooser::{choose, counting, not_patches};
@@ -20,7 +20,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// The answer to a study in tiles, without the sums, which [`Event::Summed`] reports.
+/// The result of a study in tiles without the sums, which come with [`Event::Summed`].
 #[derive(Clone, Debug)]
 pub struct TiledOutcome {
     /// What drew the masks.
@@ -33,22 +33,22 @@ pub struct TiledOutcome {
     pub surface_mesh: Mesh,
     /// The statistics of counting, if wanted.
     pub statistics: Option<Statistics>,
-    /// What was noted beside [`Site::notes`].
+    /// Notes besides [`Site::notes`].
     pub notes: Vec<Message>,
     /// The stages `prepare` and `shadows`.
     pub timings: Timings,
 }
 
-/// The study: every instant's shadows, summed to the time in shadow.
+/// Runs the study: sums every instant's shadows to the time in shadow.
 ///
 /// # Errors
-/// [`StudyError`]; choices that exclude each other before anything is drawn.
+/// [`StudyError`]. Contradictory choices are refused before anything is drawn.
 pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Outcome, StudyError> {
     let (mut tile, mut whole) = (Tile::from(site.grid), Arc::default());
     let worked = in_tiles(TiledStudy::new(site, wants, on_event)?, None, &mut |event| {
         match &event {
             Event::StartsOver => whole = Arc::default(),
-            // of what is gone on from only the rest would be told
+            // a resumed study would report only the remaining instants
             Event::Resumes { .. } => return ControlFlow::Continue(()),
             Event::Tile(next) => tile = *next,
             Event::Summed(shaded) => whole = paste(&whole, &tile, shaded),
@@ -62,7 +62,7 @@ pub fn run(site: &Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<Out
     Ok(Outcome { profile, drawn, surface, surface_mesh, statistics, notes, timings })
 }
 
-/// The sums of a whole plan, with a tile's put in their place. An empty whole has no sums yet.
+/// The sums of a whole plan with those of a tile pasted in. An empty whole has no sums yet.
 pub fn paste(whole: &Arc<Shaded>, tile: &Tile, shaded: &Arc<Shaded>) -> Arc<Shaded> {
     if tile.is_whole() {
         return Arc::clone(shaded);
@@ -77,10 +77,10 @@ pub fn paste(whole: &Arc<Shaded>, tile: &Tile, shaded: &Arc<Shaded>) -> Arc<Shad
 }
 
 impl<'a> TiledStudy<'a> {
-    /// Prepares a study: chooses what draws, and the tiles.
+    /// Prepares a study: chooses what draws it, and its tiles.
     ///
     /// # Errors
-    /// [`StudyError`]; choices that exclude each other; [`StudyError::LittleMemory`].
+    /// [`StudyError`], such as contradictory choices or [`StudyError::LittleMemory`].
     pub fn new(site: &'a Site, wants: &Wants, on_event: &mut OnEvent<'_>) -> Result<TiledStudy<'a>, StudyError> {
         not_patches(site)?;
         note_site(site, on_event)?;
@@ -89,7 +89,7 @@ impl<'a> TiledStudy<'a> {
             gather(&event, &site.notes, &mut notes);
             on_event(event)
         })?;
-        // in how many parts it is done changes no answer
+        // not a note of the outcome: tiles do not change the result
         note_tiles(&study.tiles, on_event)?;
         Ok(TiledStudy { notes, ..study })
     }
@@ -113,9 +113,9 @@ impl<'a> TiledStudy<'a> {
     }
 }
 
-/// Sums every instant's shadows. A study that was stopped, given as `begun`, continues where it was; its sums are the
-/// same to the bit. Tiles before the one that was worked on are not reported again. What another study left is not
-/// used. After [`Event::StartsOver`] everything is reported from the first instant on, or from what was put into
+/// Sums every instant's shadows. A study that was stopped continues from the state `begun`, and its sums are the same
+/// to the bit; tiles before the unfinished one are not reported again. The state of a different study is ignored. After
+/// [`Event::StartsOver`] everything is reported from the first instant on, or from the state put into
 /// [`Event::Resumes`].
 ///
 /// # Errors
@@ -126,7 +126,7 @@ pub fn in_tiles(
     on_event: &mut OnEvent<'_>,
 ) -> Result<TiledOutcome, StudyError> {
     let (site, wants) = (tiled.site, tiled.wants.clone());
-    // which study it is, where what is done of it is kept
+    // the fingerprint is needed only if the state is kept
     let number = wants.keep_every.map(|_| tiled.number());
     let mut notes = tiled.notes.clone();
     let mut at_hand = Some((tiled, begun));
@@ -134,7 +134,7 @@ pub fn in_tiles(
         gather(&event, &site.notes, &mut notes);
         on_event(event)
     };
-    // only an adapter reports what counting takes
+    // only an adapter reports counts
     let worked = persist(site, !wants.statistics, hear, &mut |again, gpu, on_event| {
         if let Some((tiled, begun)) = at_hand.take() {
             return once(tiled, begun, on_event);
@@ -144,7 +144,7 @@ pub fn in_tiles(
         if number.is_some_and(|number| number == tiled.number()) {
             tell(on_event, Event::Resumes { study: &tiled, begun: &begun })?;
         } else {
-            // what another machine takes over is no more the study that was begun, and must not be continued as that
+            // what another machine takes over is a different study, and must not be continued as this one
             tiled.wants.keep_every = None;
         }
         once(tiled, begun.into_inner(), on_event)
@@ -211,25 +211,25 @@ fn once(
     })
 }
 
-/// What goes on from instant to instant, and from tile to tile.
+/// What persists from instant to instant, and from tile to tile.
 struct TileWork<'a> {
     look: &'a SiteView<'a>,
     wants: &'a Wants,
-    /// How near together times of change are found; 0 where they are not.
+    /// The precision of times of change; 0 if none are searched.
     resolution_secs: u32,
-    /// The study's number.
+    /// The study's fingerprint.
     study: u64,
-    /// How many tiles there are.
+    /// The number of tiles.
     tiles: usize,
-    /// How many instants were done before, those of each tile counted.
+    /// The number of instants done before, counted for each tile.
     done: usize,
     statistics: Option<Statistics>,
-    /// Since when nothing was kept, and whether anything was.
+    /// When the state was last kept, and whether it was at all.
     kept: (Instant, bool),
 }
 
 impl TileWork<'_> {
-    /// The sums of a tile, on top of those that it was `begun` with.
+    /// The sums of a tile, added to those that it was `begun` with.
     fn sum(
         &mut self,
         (number, tile): (usize, &Tile),
@@ -251,7 +251,7 @@ impl TileWork<'_> {
             self.count(instant, technique)?;
             let (mask, bits) = (mask.as_ref(), bits.as_ref());
             let told = tell(on_event, Event::Drawn { index, count, time: instant.time, mask, bits });
-            // what lies in files already, and long work, must not be lost while a drawing is made of it
+            // long work, or work with files, is kept before a drawing is made of it
             let is_last = index + 1 == count && (self.tiles > 1 || self.wants.bits || self.kept.1);
             let is_due = |every| told.is_err() || is_last || self.kept.0.elapsed() >= every;
             if self.wants.keep_every.is_some_and(is_due) {
@@ -262,7 +262,7 @@ impl TileWork<'_> {
         Ok(sum.finish()?)
     }
 
-    /// Adds what counting an instant takes, where that is wanted.
+    /// Adds the counts of an instant, if statistics are wanted.
     fn count(&mut self, instant: &sun::Instant, technique: &mut dyn Technique) -> Result<(), StudyError> {
         if !instant.night
             && let Some(statistics) = &mut self.statistics
@@ -273,7 +273,7 @@ impl TileWork<'_> {
         Ok(())
     }
 
-    /// Tells what is to be kept after so many instants.
+    /// Reports the state after a number of instants.
     fn keep(&mut self, done: usize, shaded: Shaded, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
         let TileWork { study, tiles, statistics, .. } = *self;
         tell(on_event, Event::Kept(&Unfinished { study, tiles, done, shaded, statistics }))?;
@@ -282,21 +282,21 @@ impl TileWork<'_> {
     }
 }
 
-/// Returns an error if what is wanted is made of the whole plan, and that is done in tiles.
+/// Refuses tiles for outputs that need the whole plan.
 fn check_tiles(tiles: &[Tile], wants: &Wants) -> Result<(), StudyError> {
     if tiles.len() < 2 {
         return Ok(());
     }
     if wants.masks {
         let message = message![
-            "the plan is done in tiles, and masks are written whole";
-            "take ", Field::Bits, ", which holds the same, or larger cells", aside(Field::Cell)
+            "the plan is done in tiles, but masks are written whole";
+            "choose ", Field::Bits, ", which contains the same, or larger cells", aside(Field::Cell)
         ];
         return Err(StudyError::Conflict { field: Field::Masks, message });
     }
     if wants.lines {
         let message = message![
-            "the plan is done in tiles, and lines are drawn of the whole";
+            "the plan is done in tiles, but lines are drawn from the whole";
             "take larger cells", aside(Field::Cell), ", leave ", Field::Memory, " out, or leave this out"
         ];
         return Err(StudyError::Conflict { field: Field::Lines, message });

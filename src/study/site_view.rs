@@ -35,8 +35,7 @@ impl SiteView<'_> {
         Scene { casters, receivers, ground: self.site.ground.level }
     }
 
-    /// Volumes and silhouette before a camera's picture, in cells half as large as its pixels: a drawing on paper holds
-    /// more than the picture's.
+    /// The volumes and silhouette of a camera's picture, at twice its resolution: a drawing on paper shows more detail.
     pub(super) fn overlay(&self, wants: &InstantWants, to_sun: DVec3) -> Result<Option<Overlay>, ShadowError> {
         let (Some(gpu), View::Camera(camera)) = (self.machine.gpu(), self.view) else { return Ok(None) };
         if !(wants.volumes || wants.silhouette) {
@@ -53,7 +52,7 @@ impl SiteView<'_> {
         }))
     }
 
-    /// What the drawing shows: the receivers, or over a ground that is judged alone all models.
+    /// The mesh that the drawing shows: the receivers; if only the ground is judged, all models.
     pub(super) fn surface_mesh(&self) -> Mesh {
         match self.receivers {
             Receivers::Top | Receivers::Patches => self.site.mesh.of_components(&self.site.receives),
@@ -80,7 +79,7 @@ impl SiteView<'_> {
     }
 }
 
-/// Nothing sees the sun.
+/// A mask in which nothing sees the sun.
 pub(super) fn night(view: &View) -> Mask {
     let (width, height) = view.size();
     Mask { width, height, share: vec![0; width as usize * height as usize] }

@@ -12,13 +12,13 @@ pub struct Stopwatch {
 }
 
 impl Stopwatch {
-    /// A stopwatch that runs from now on.
+    /// Starts a stopwatch.
     pub fn start() -> Stopwatch {
         let now = Instant::now();
         Stopwatch { started: now, lap: now, stages: Timings::default() }
     }
 
-    /// A stopwatch that runs from now on, with stages that were measured before.
+    /// Starts a stopwatch that already has some stages.
     pub fn after(stages: Timings) -> Stopwatch {
         let now = Instant::now();
         let before: f64 = stages.0.iter().map(|(_, secs)| secs).sum();
@@ -26,14 +26,14 @@ impl Stopwatch {
         Stopwatch { started: started.unwrap_or(now), lap: now, stages }
     }
 
-    /// A stage ends; the next begins.
+    /// Ends a stage and begins the next.
     pub(crate) fn lap(&mut self, stage: &'static str) {
         let now = Instant::now();
         self.stages.0.push((stage, (now - self.lap).as_secs_f64()));
         self.lap = now;
     }
 
-    /// Stages end that were timed elsewhere; the next begins.
+    /// Adds stages that were measured elsewhere, and begins the next.
     pub(crate) fn laps(&mut self, stages: Timings) {
         self.stages.0.extend(stages.0);
         self.lap = Instant::now();
@@ -44,7 +44,7 @@ impl Stopwatch {
         self.stages.clone()
     }
 
-    /// The stages so far, and `total`.
+    /// The stages so far, with `total`.
     pub fn timings(&self) -> Timings {
         let mut timings = self.stages.clone();
         timings.0.push(("total", self.started.elapsed().as_secs_f64()));

@@ -1,10 +1,10 @@
-//! The subject: what a technique draws in a view of a site.
+//! The subject: what a technique judges in a view of a site.
 
 use crate::choice::{Receivers, Subject};
 use crate::site::{GroundKind, Site};
 use crate::view::View;
 
-/// What a view judges: the plan judges the requested receivers, a camera what it sees.
+/// The receivers of a view: for the plan those of the request, for a camera what it sees.
 pub fn judged(site: &Site, view: &View) -> Receivers {
     match view {
         View::Plan(_) => site.receivers,
@@ -12,7 +12,7 @@ pub fn judged(site: &Site, view: &View) -> Receivers {
     }
 }
 
-/// What a technique draws of a view.
+/// The subject of a view.
 pub(super) fn subject(view: &View, receivers: Receivers, ground: GroundKind) -> Subject {
     match (view, receivers, ground) {
         (View::Camera(_), ..) => Subject::Camera,
@@ -24,7 +24,7 @@ pub(super) fn subject(view: &View, receivers: Receivers, ground: GroundKind) -> 
     }
 }
 
-/// What a technique draws of a view of a site.
+/// The subject of a view of a site.
 pub(super) fn subject_of(site: &Site, view: &View) -> Subject {
     subject(view, judged(site, view), site.ground.kind)
 }

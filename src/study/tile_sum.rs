@@ -1,7 +1,7 @@
-//! A tile's shaded time: its instants, and between them the times at which its cells change.
+//! Sums the shaded time of a tile: the instants, and the times between them at which cells change.
 //!
-//! What a technique draws whole is drawn at every moment between two instants, so that nothing is missed. Cells that are
-//! asked singly are asked only where the two instants differ, by halving.
+//! Cells that a technique can only draw together are drawn at every moment between two instants, so that nothing is
+//! missed. Cells that it can test singly are tested only if the two instants differ, by bisection.
 
 use super::gaps::{Gap, Gaps};
 use super::{StudyError, Wants, night};
@@ -13,29 +13,29 @@ use crate::site::Site;
 use crate::view::{Bits, CellWord, Mask, Tile, View};
 use std::sync::Arc;
 
-/// The running sum.
+/// The running sum of a tile.
 pub(super) struct TileSum<'a> {
     site: &'a Site,
     gaps: Gaps<'a>,
     sum: Sum,
-    /// The shadow at an instant that begins a gap, of those cells that are asked singly; and which instant it is.
+    /// The instant at which the current gap begins, and the shadow then of those cells that are tested singly.
     before: Option<(usize, Bits)>,
 }
 
 impl<'a> TileSum<'a> {
-    /// All zero.
+    /// A sum of zeros.
     pub(super) fn new(site: &'a Site, resolution_secs: u32, gpu: Option<Arc<Gpu>>, tile: &Tile) -> TileSum<'a> {
         let gaps = Gaps::new(site, resolution_secs);
         TileSum { site, gaps, sum: Sum::new(gpu, tile.size[0], tile.size[1]), before: None }
     }
 
-    /// Goes on from the sum of so many instants.
+    /// Continues from the sum of a number of instants.
     pub(super) fn begin_with(&mut self, shaded: &Shaded, instants: usize) {
         let by_day = self.site.track.instants[..instants].iter().filter(|instant| !instant.night);
         self.sum.begin_with(shaded, by_day.map(|instant| instant.weight_secs).sum());
     }
 
-    /// Adds an instant and the gap before it. Returns the instant's mask and its bits, where they are wanted.
+    /// Adds an instant and the gap before it. Returns the instant's mask and its bits if they are wanted.
     pub(super) fn add(
         &mut self,
         at: usize,
@@ -53,7 +53,7 @@ impl<'a> TileSum<'a> {
         let begun = match (&single, self.before.take()) {
             (Some(single), before) if self.gaps.before(at).is_some() => match before {
                 Some((last, bits)) if last + 1 == at => Some(bits),
-                // the study goes on here
+                // the study continues here
                 _ => Some(single.of(&technique.draw(self.site.track.instants[at - 1].to_sun)?.bits()?)),
             },
             _ => None,
@@ -90,7 +90,7 @@ impl<'a> TileSum<'a> {
         if secs > 0 { self.sum.add(&DrawnMask::Bits(bits), secs) } else { Ok(()) }
     }
 
-    /// Adds a mask for so many seconds, and nothing before it.
+    /// Adds a mask with a weight of its own, without a gap before it.
     pub(super) fn add_mask(&mut self, mask: &DrawnMask<'_>, secs: u32) -> Result<(), ShadowError> {
         self.sum.add(mask, secs)
     }
@@ -106,23 +106,24 @@ impl<'a> TileSum<'a> {
     }
 }
 
-/// The search for the times at which cells change within a gap.
+/// The search for the times at which cells change in a gap.
 struct CellSearch<'a> {
     technique: &'a mut dyn Technique,
     gap: Gap<'a>,
-    /// The shadow as the gap begins.
+    /// The shadow at the beginning of the gap.
     before: &'a Bits,
     sum: &'a mut Sum,
 }
 
 impl CellSearch<'_> {
-    /// Adds the gap's seconds to cells that are in shadow at both ends, and to others as many as they are found to be.
+    /// Adds the gap's seconds: all to cells in shadow at both ends, and the part found by the search to cells that
+    /// change.
     fn add_gap(&mut self, after: &Bits) -> Result<(), StudyError> {
         self.sum.add_gap([self.before, after], self.gap.secs())?;
         self.halve([0, self.gap.steps()], &self.before.differing(after))
     }
 
-    /// Between two moments the cells that `differ` at them change: finds in which half each of them does.
+    /// Finds in which half of a run of steps each of the cells changes that `differ` at its ends.
     fn halve(&mut self, [from, to]: [u32; 2], differ: &[CellWord]) -> Result<(), StudyError> {
         if differ.is_empty() {
             return Ok(());
@@ -143,7 +144,7 @@ impl CellSearch<'_> {
     }
 }
 
-/// Those cells whose bits are set, and the others; words without any are left out.
+/// Splits cells by their bits: those that are set, and the others. Empty words are dropped.
 fn parted(cells: &[CellWord], bits: &[u64]) -> [Vec<CellWord>; 2] {
     let part = |of: &dyn Fn(u64, u64) -> u64| {
         let words = cells.iter().zip(bits).map(|(word, bits)| CellWord { cells: of(word.cells, *bits), ..*word });

@@ -11,42 +11,42 @@ use crate::view::{Tile, View};
 use std::cell::OnceCell;
 use std::fmt;
 
-/// A study that is prepared, with its sums tile by tile ([`Event::Tile`](super::Event::Tile),
-/// [`Event::Summed`](super::Event::Summed)), so that not all of them are in memory.
+/// A prepared study that reports its sums tile by tile ([`Event::Tile`](super::Event::Tile),
+/// [`Event::Summed`](super::Event::Summed)), so that memory need not hold all of them.
 pub struct TiledStudy<'a> {
     pub(super) site: &'a Site,
     pub(super) wants: Wants,
     pub(super) machine: Machine,
     pub(super) tiles: Vec<Tile>,
     pub(super) number: OnceCell<u64>,
-    /// What was noted while it was prepared, beside the site's own notes.
+    /// The notes of the preparation, besides the site's own.
     pub(super) notes: Vec<Message>,
     pub(super) watch: Stopwatch,
 }
 
 impl TiledStudy<'_> {
-    /// The study's fingerprint: a number made of everything that its result depends on.
+    /// The study's fingerprint: a hash of everything that its result depends on.
     pub fn number(&self) -> u64 {
         *self.number.get_or_init(|| fingerprint::of(self.site, &self.drawn(), &self.tiles, &self.wants))
     }
 
-    /// What draws.
+    /// What draws the study.
     pub(super) fn drawn(&self) -> Provenance {
         self.machine.drawn_over(self.site, subject_of(self.site, &View::Plan(self.site.grid)))
     }
 
-    /// The tiles, in their order.
+    /// The tiles in order.
     pub fn tiles(&self) -> &[Tile] {
         &self.tiles
     }
 
-    /// A part of the study, for a program that shares the work out: the shaded time of one of the tiles at some of the
-    /// instants, which may come from another process. What changes between two instants of the track is the later one's.
-    /// Sums of instants that make up the track add up to the tile's own to the bit, and [`paste`](super::paste) puts tiles
-    /// together. Where the device fails, so does this.
+    /// Computes a part of the study, for a program that distributes the work: the shaded time of one tile at some of
+    /// the instants, which may come from another process. Time between two instants belongs to the later one. Sums of
+    /// instants that make up the track add up to the tile's own sum to the bit, and [`paste`](super::paste) joins
+    /// tiles. If the device fails, so does this call.
     ///
     /// # Errors
-    /// [`StudyError::OtherTile`] for a tile of another study; [`StudyError::Shadow`], where drawing failed.
+    /// [`StudyError::OtherTile`] for a tile of another study; [`StudyError::Shadow`] if drawing fails.
     pub fn sum(&self, tile: Tile, instants: &[sun::Instant]) -> Result<Shaded, StudyError> {
         if !self.tiles.contains(&tile) {
             return Err(StudyError::OtherTile);
@@ -69,7 +69,7 @@ impl TiledStudy<'_> {
         SiteView { site, machine, view: View::Plan(site.grid), receivers: site.receivers }
     }
 
-    /// Whether a state was left by this study.
+    /// Whether a state belongs to this study.
     pub fn is_of(&self, begun: &Unfinished) -> bool {
         let count = self.tiles.len() * self.site.track.instants.len();
         let tile = self.tiles.get(self.worked_on(begun.done));
@@ -80,8 +80,8 @@ impl TiledStudy<'_> {
             && tile.is_some_and(|tile| begun.shaded.len() == tile.cells())
     }
 
-    /// The tile that is worked on after so many instants, those of each tile counted: the last one until all of its
-    /// instants are done and told.
+    /// The index of the tile that is in work after a number of instants, counted for each tile; the last tile until all
+    /// of its instants are done and reported.
     pub(crate) fn worked_on(&self, done: usize) -> usize {
         done.saturating_sub(1) / self.site.track.instants.len().max(1)
     }

@@ -1,4 +1,4 @@
-//! A plan in tiles, where it has more cells than the adapter draws at once, or than the memory holds.
+//! Splits a plan into tiles if it has more cells than the adapter can draw at once, or than fit in memory.
 
 use super::gaps::Gaps;
 use super::machine::Machine;
@@ -8,18 +8,18 @@ use crate::profile::accumulate::MOST_SECS;
 use crate::site::Site;
 use crate::view::{Grid, Tile, View};
 
-/// Rows of the smallest tile: the models are projected once for each tile.
+/// The rows of the smallest tile: each tile costs a projection of the models.
 const LEAST_ROWS: u32 = 16;
-/// Columns of a tile are a multiple of this, so that none begins within a byte of bits.
+/// A tile's columns are a multiple of this, so that no tile begins within a byte of bits.
 const ALIGNED: u32 = 64;
 
-/// What one instant's plan takes at once, bytes: on an adapter 8192 × 8192 cells are still one tile.
+/// The memory for one instant's plan, bytes: 8192 × 8192 cells on an adapter are still one tile.
 const INSTANT_BYTES: u64 = 4 << 30;
 
-/// The tiles of a site's plan, row after row; one where all of it can be done at once.
+/// The tiles of a site's plan, row by row; a single one if the plan fits.
 pub(super) fn of(site: &Site, machine: &Machine, wants: &Wants, day_secs: u32) -> Result<Vec<Tile>, StudyError> {
     let grid = site.grid;
-    // sums of more days run in larger words beside
+    // sums of more days need additional larger words
     let long = if day_secs > MOST_SECS { 24 } else { 0 };
     let subject = subject_of(site, &View::Plan(grid));
     let searches = Gaps::new(site, machine.drawn_over(site, subject).resolution_secs).any();
@@ -39,7 +39,7 @@ pub(super) fn of(site: &Site, machine: &Machine, wants: &Wants, day_secs: u32) -
     Ok(split(grid, columns, rows))
 }
 
-/// The same of one instant's plan: however many cells it has, little is taken beside its mask.
+/// The tiles of one instant's plan, which needs little memory besides its mask.
 pub(super) fn of_instant(grid: Grid, subject: Subject, machine: &Machine) -> Vec<Tile> {
     let (most, columns) = columns(grid, machine);
     let row_bytes = u64::from(columns) * machine.cell_bytes(subject, &Wants::default(), false);
@@ -47,7 +47,7 @@ pub(super) fn of_instant(grid: Grid, subject: Subject, machine: &Machine) -> Vec
     split(grid, columns, rows)
 }
 
-/// Returns an error if one instant's plan is more than can be drawn at once.
+/// Refuses one instant's plan if it cannot be drawn at once.
 pub(super) fn at_once(grid: Grid, subject: Subject, machine: &Machine) -> Result<(), StudyError> {
     match of_instant(grid, subject, machine).len() {
         1 => Ok(()),
@@ -55,7 +55,7 @@ pub(super) fn at_once(grid: Grid, subject: Subject, machine: &Machine) -> Result
     }
 }
 
-/// The most columns and rows that a machine draws at once, and how many columns tiles are to have.
+/// The greatest number of columns and rows that a machine draws at once, and the number of columns for the tiles.
 fn columns(grid: Grid, machine: &Machine) -> (u32, u32) {
     let most = machine.most_cells().unwrap_or(u32::MAX);
     let columns = match grid.width.div_ceil(most) {
@@ -65,9 +65,9 @@ fn columns(grid: Grid, machine: &Machine) -> (u32, u32) {
     (most, columns)
 }
 
-/// Tiles of so many columns and about so many rows.
+/// Tiles with this many columns and about this many rows.
 fn split(grid: Grid, columns: u32, rows: u32) -> Vec<Tile> {
-    // of about the same height
+    // all of about the same height
     let rows = grid.height.div_ceil(grid.height.div_ceil(rows));
     let begins = |end: u32, step: u32| (0..end).step_by(step as usize);
     let tile = |row: u32, column: u32| Tile {

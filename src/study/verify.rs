@@ -1,7 +1,8 @@
-//! Compares every technique that draws a plan with ray casting, so that users can see on their own site how far to trust each.
+//! Compares every technique that draws a plan with ray casting, so that users can see on their own site how far to
+//! trust each one.
 //!
-//! [`verify`] makes the techniques, and [`hold`] compares them with the truth, instant by instant. Ray casting is
-//! compared with itself without its trees, at some cells.
+//! [`verify`] makes the techniques, and [`hold`] compares them with the truth, instant by instant. At some cells, ray
+//! casting with its trees is compared with ray casting against every face.
 
 use super::again::persist;
 use super::chooser::{not_patches, opened};
@@ -23,20 +24,21 @@ use std::time;
 
 /// The default number of cells along the plan's longer side.
 pub const SIZE: u32 = 512;
-/// Points of the sun's disc where nobody asks.
+/// The default number of samples of the sun's disc.
 const SUN_SAMPLES: u32 = 64;
-/// At so many cells of a study ray casting is compared with itself without its trees; half of them are edge cells.
+/// The number of cells of a study at which ray casting is compared with itself without trees; half of them are edge
+/// cells.
 const MOST_SAMPLED: usize = 200;
 
-/// Which part of an exact technique's edge cells may differ: on the ground under clean models, and elsewhere.
+/// The share of an exact technique's edge cells that may differ: on the ground under clean models, and elsewhere.
 const EDGE_SHARE_CLEAN: f64 = 0.005;
 const EDGE_SHARE: f64 = 0.01;
 
-/// A technique that is compared with the truth.
+/// A technique to compare with the truth.
 pub struct Trial {
     /// What draws its masks.
     pub drawn: Provenance,
-    /// The truth with which it is compared.
+    /// The truth that it is compared with.
     pub against: Truth,
     /// What it promises.
     pub promise: Promise,
@@ -47,12 +49,13 @@ pub struct Trial {
 /// Compares every technique that draws a plan with ray casting, at the study's instants.
 ///
 /// # Errors
-/// [`StudyError`]; a study all at night, and a machine without a graphics adapter, before anything is drawn.
+/// [`StudyError`]. A study that is all at night, or a machine without a graphics adapter, is refused before anything is
+/// drawn.
 pub fn verify(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Verification, StudyError> {
     not_patches(site)?;
     by_day(site)?;
     note_site(site, on_event)?;
-    // whoever asks wants every technique: none takes another's place
+    // all techniques are wanted, so none may replace another
     persist(site, false, on_event, &mut |site, gpu, on_event| {
         let gpu = opened(gpu).map_err(|error| StudyError::NoVerification(error.why()))?;
         let trials = trials(&gpu, site, on_event)?;
@@ -60,7 +63,7 @@ pub fn verify(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Verification, S
     })
 }
 
-/// The techniques that draw, made for a site's plan on an adapter.
+/// The techniques, made for a site's plan on an adapter.
 fn trials(gpu: &Arc<Gpu>, site: &Site, on_event: &mut OnEvent<'_>) -> Result<Vec<Trial>, StudyError> {
     let view = View::Plan(site.grid);
     let subject = subject_of(site, &view);
@@ -86,7 +89,7 @@ fn trials(gpu: &Arc<Gpu>, site: &Site, on_event: &mut OnEvent<'_>) -> Result<Vec
     Ok(trials)
 }
 
-/// The techniques that are compared with ray casting: the exact ones first, as a map is compared with one of them.
+/// The rows of the techniques that are compared: exact ones first, as the hybrid's map is compared with one of them.
 fn held() -> Vec<&'static MethodRow> {
     let is_held = |row: &&MethodRow| row.method != Method::Auto && row.promise != Promise::Same;
     let mut rows: Vec<&MethodRow> = TABLE.iter().filter(is_held).collect();
@@ -94,7 +97,7 @@ fn held() -> Vec<&'static MethodRow> {
     rows
 }
 
-/// Compares techniques, and ray casting itself, with the truth.
+/// Compares techniques with the truth, and ray casting with itself.
 ///
 /// # Errors
 /// As [`verify`].
@@ -141,7 +144,7 @@ pub fn hold(site: &Site, trials: Vec<Trial>, on_event: &mut OnEvent<'_>) -> Resu
     Ok(Verification { grid: site.grid, instants: count, clean, edge_share, sun_samples, disc_secs, rows })
 }
 
-/// The instants with a sun.
+/// The instants by day.
 fn by_day(site: &Site) -> Result<Vec<&Instant>, StudyError> {
     let instants: Vec<_> = site.track.instants.iter().filter(|instant| !instant.night).collect();
     if instants.is_empty() { Err(StudyError::NoDay) } else { Ok(instants) }
@@ -190,7 +193,7 @@ fn compare(
     tally.draw(&mask, instant.weight_secs, started.elapsed().as_secs_f64())?;
     tally.compare(mask.share.iter().zip(&truth.mask.share));
 
-    // what the map missed counts apart, and so as right here
+    // cells that the map missed are counted separately, so here they are replaced by the truth
     let mut judged = mask.clone();
     let mut missed = 0;
     if let (Promise::ExactButForMap, Some(exact)) = (trial.promise, exact)
@@ -215,7 +218,7 @@ fn compare(
     Ok(mask)
 }
 
-/// Holds some cells of ray casting against every face.
+/// Compares some cells of ray casting with a test of every face.
 fn without_trees(cast: &TruthCaster, instant: &Instant, cells: &[(u32, u32)], tally: &mut Tally) {
     let TruthCaster { rays, mask, .. } = cast;
     let share = |&(column, row): &(u32, u32)| rays.share_without_trees(column, row, instant.to_sun);
@@ -225,7 +228,7 @@ fn without_trees(cast: &TruthCaster, instant: &Instant, cells: &[(u32, u32)], ta
     tally.differ(Difference::at(cells, mask, &truth), 0, 0, mask);
 }
 
-/// Cells spread over a mask, half of them edge cells if there are any. Each number chooses its own cells.
+/// Returns cells spread over a mask, half of them edge cells if there are any. Different numbers give different cells.
 pub fn spread(mask: &Mask, numbers: std::ops::Range<usize>) -> Vec<(u32, u32)> {
     let at = |cell: usize| (cell as u32 % mask.width, cell as u32 / mask.width);
     let all = mask.share.len();
@@ -235,7 +238,7 @@ pub fn spread(mask: &Mask, numbers: std::ops::Range<usize>) -> Vec<(u32, u32)> {
             is_edge_cell(mask, column, row)
         })
         .collect();
-    // multiples of the golden ratio fall evenly, however many there are
+    // multiples of the golden ratio are spread evenly, however many there are
     let place = |number: usize, among: usize| ((number as f64 * 0.618_033_988_749_895).fract() * among as f64) as usize;
     let cell = |number: usize| match number % 2 {
         0 if !edge.is_empty() => edge[place(number / 2, edge.len())],

@@ -1,4 +1,4 @@
-//! The faces that cast, in a tree of boxes; and one of them as a probe sees it.
+//! A bounding-volume tree over the faces that cast, and its boxes and faces as a probe sees them.
 
 use super::sift::Halfspace;
 use super::sky_cells::SunPyramid;
@@ -10,14 +10,14 @@ use obvhs::aabb::Aabb;
 use obvhs::bvh2::{Bvh2, builder::build_bvh2};
 use std::time::Duration;
 
-/// A tree of two boxes a box.
+/// A binary tree of boxes.
 pub(super) struct FaceTree {
     tree: Option<Bvh2>,
-    /// Corners of the faces in the tree's order, around the mesh's origin.
+    /// The faces' corners in the tree's order, relative to the mesh's origin.
     corners: Vec<[Vec3; 3]>,
 }
 
-/// What a box of the tree holds.
+/// The contents of one of the tree's boxes.
 pub(super) enum BoxContents<'a> {
     Boxes([u32; 2]),
     Faces(&'a [[Vec3; 3]]),
@@ -42,12 +42,12 @@ impl FaceTree {
         FaceTree { corners: order.iter().map(|&face| mesh.corners(face as usize)).collect(), tree }
     }
 
-    /// The box around all; none without faces.
+    /// The box around everything; `None` without faces.
     pub(super) fn root(&self) -> Option<u32> {
         self.tree.as_ref().map(|_| 0)
     }
 
-    /// A box, from a point.
+    /// A box as it is seen from a point.
     pub(super) fn seen(&self, at: u32, point: DVec3) -> SeenBox {
         let Some(tree) = &self.tree else { return SeenBox { middle: DVec3::ZERO, half: DVec3::ZERO } };
         let bounds = &tree.nodes[at as usize].aabb();
@@ -67,26 +67,26 @@ impl FaceTree {
 }
 
 impl SeenBox {
-    /// Whether all of it lies outside of a pyramid.
+    /// Whether the whole box lies outside of a pyramid.
     pub(super) fn is_outside(&self, pyramid: &SunPyramid) -> bool {
-        // more than what rounding comes to
+        // more than the rounding errors add up to
         let near = 1e-9 * (self.middle.abs().max_element() + self.half.max_element());
         pyramid.sides.iter().any(|side| side.dot(self.middle) + side.abs().dot(self.half) < -near)
     }
 
-    /// Whether it is larger than a share of the pyramid where it lies, or the probe is near it.
+    /// Whether it is large compared with the pyramid at its distance, or close to the probe.
     pub(super) fn is_large(&self, pyramid: &SunPyramid) -> bool {
         let radius = self.half.length();
         let away = self.middle.length() - radius;
         radius > 3.0 * away * pyramid.half
     }
 
-    /// How far away it is at least, squared.
+    /// The square of its least distance.
     pub(super) fn nearest(&self) -> f64 {
         (self.middle.abs() - self.half).max(DVec3::ZERO).length_squared()
     }
 
-    /// From where to where it reaches along the way of time, on the plane that the pyramid's axis stands on.
+    /// Its extent along the direction of time, on the plane perpendicular to the pyramid's axis.
     pub(super) fn along(&self, pyramid: &SunPyramid) -> [f64; 2] {
         let depth = pyramid.axis.dot(self.middle);
         let deep = pyramid.axis.abs().dot(self.half);
@@ -109,13 +109,13 @@ impl SeenBox {
 #[derive(Clone)]
 pub(super) struct SeenFace {
     pub(super) corners: [DVec3; 3],
-    /// Planes through the probe and the sides; what is hit lies before all three.
+    /// Planes through the probe and each side. A ray that hits the face is in front of all three.
     pub(super) sides: [Halfspace; 3],
-    /// The probe lies in the face's plane, as far as numbers say: the sides say nothing but where it is not hit.
+    /// Whether the probe lies in the face's plane, within rounding. The sides then only exclude rays.
     pub(super) is_flat: bool,
 }
 
-/// Of how many of a cell's suns a face lies before, for all that is known.
+/// How many of a cell's suns a face covers, as far as that is certain.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum SunCoverage {
     None,
@@ -125,7 +125,7 @@ pub(super) enum SunCoverage {
 
 impl SeenFace {
     pub(super) fn new(corners: &[Vec3; 3], point: DVec3) -> SeenFace {
-        /// More than the rounding of a product of two lengths.
+        /// More than the rounding error of a product of two lengths.
         const ROUNDING: f64 = 1e-13;
         let corners @ [a, b, c] = corners.map(|corner| corner.as_dvec3() - point);
         let lengths = corners.map(DVec3::length);
@@ -142,17 +142,17 @@ impl SeenFace {
         }
     }
 
-    /// Whether one of a pyramid's sides parts it from the face.
+    /// Whether one of the pyramid's sides separates it from the face.
     pub(super) fn is_beside(&self, pyramid: &SunPyramid) -> bool {
         pyramid.sides.iter().any(|side| self.corners.iter().all(|corner| side.dot(*corner) < 0.0))
     }
 
-    /// How far its nearest corner is away, squared.
+    /// The square of its nearest corner's distance.
     pub(super) fn nearest(&self) -> f64 {
         self.corners.iter().map(|corner| corner.length_squared()).fold(f64::INFINITY, f64::min)
     }
 
-    /// As [`SeenBox::along`].
+    /// As for [`SeenBox::along`].
     pub(super) fn along(&self, pyramid: &SunPyramid) -> [f64; 2] {
         let mut along = [f64::INFINITY, f64::NEG_INFINITY];
         for corner in &self.corners {
@@ -166,7 +166,7 @@ impl SeenFace {
         along
     }
 
-    /// How it lies before the suns of a pyramid.
+    /// How much of a pyramid's suns it covers.
     pub(super) fn coverage(&self, pyramid: &SunPyramid) -> SunCoverage {
         if self.is_beside(pyramid) {
             return SunCoverage::None;

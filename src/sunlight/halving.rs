@@ -1,10 +1,11 @@
-//! The slow twin of the search: rays at the instants of a grid, and halving between two of them that differ.
+//! The slow twin of the search: casts rays at the instants of a grid, and bisects between two that differ.
 
 use super::{Interval, IntervalBound};
 use crate::sun::{DayWindow, Instant, Sky, SunError, Zone};
 use chrono::{DateTime, TimeDelta};
 
-/// The intervals in which nothing blocks. What is shorter than the step may be missed; at a step of one second nothing is.
+/// Returns the intervals in which nothing blocks. Intervals shorter than the step may be missed; at a step of one
+/// second, none is.
 pub(super) fn by_grid(
     window: &DayWindow,
     sky: &Sky<'_>,
@@ -14,8 +15,8 @@ pub(super) fn by_grid(
     intervals(&grid(window, sky, step)?, sky, blocked)
 }
 
-/// A window's instants, a step apart, and its end; those deep in the night are left out. Where the sun rises and
-/// sets between two of them there is one more, so that no sunlight and no night is missed.
+/// The window's instants a step apart, and its end, without those deep in the night. If the sun rises and sets between
+/// two of them, one more is added, so that no sunlight and no night is missed.
 fn grid(window: &DayWindow, sky: &Sky<'_>, step: TimeDelta) -> Result<Vec<Instant>, SunError> {
     let mut last = sky.at(window.from)?;
     let mut grid = vec![last.clone()];
@@ -30,15 +31,15 @@ fn grid(window: &DayWindow, sky: &Sky<'_>, step: TimeDelta) -> Result<Vec<Instan
     Ok(grid)
 }
 
-/// The intervals in which nothing blocks. Between instants of the grid that agree there is no change; between two that do
-/// not the one that halving finds.
+/// Returns the intervals in which nothing blocks. Between instants that agree no change is assumed; between two that
+/// differ the change is bisected.
 fn intervals(
     grid: &[Instant],
     sky: &Sky<'_>,
     blocked: impl Fn(&Instant) -> Option<IntervalBound>,
 ) -> Result<Vec<Interval>, SunError> {
     let mut found = Vec::new();
-    // since when there is sun, and what blocked before
+    // the start of the open interval, and what blocked before it
     let mut open = None;
     let mut before: Option<(DateTime<Zone>, Option<IntervalBound>)> = None;
     for instant in grid {

@@ -1,4 +1,4 @@
-//! Time in the sun where there is no raster: the intervals of single points, and hours on flat patches.
+//! Time in the sun without a raster: intervals of single points, and hours on flat patches.
 
 mod face_tree;
 #[cfg(feature = "test-hooks")]

@@ -1,8 +1,8 @@
-//! The answer on patches: time in the sun on flat patches, texel by texel.
+//! Time in the sun on flat patches, texel by texel.
 
 use crate::mesh::patches::{Patch, Patches};
 
-/// Time in the sun of every judged texel.
+/// The time in the sun of every judged texel.
 ///
 /// Sums are exact integers, the same on every machine.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,4 +1,5 @@
-//! The intervals of a probe on several days: from what its shade surely is, and the exact ray where that is doubtful.
+//! Finds a probe's intervals on several days: first the seconds that are certainly lit or dark, then exact rays for the
+//! doubtful ones.
 
 use super::face_tree::FaceTree;
 use super::shade::{Shade, shades};
@@ -11,16 +12,16 @@ use crate::sun::{Air, DayWindow, Instant, Place, SunError};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Some days as they are for all probes.
+/// Several days, prepared once for all probes.
 pub struct SearchedDays<'a> {
-    /// In their order.
+    /// The sun's path of each day, in order.
     pub paths: Vec<SunPath<'a>>,
     cells: SunCells,
 }
 
 impl<'a> SearchedDays<'a> {
     /// # Errors
-    /// As of [`SunPath::new`].
+    /// As for [`SunPath::new`].
     pub fn new(place: &'a Place, windows: &'a [DayWindow], air: Option<Air>) -> Result<SearchedDays<'a>, SunError> {
         let paths: Vec<_> =
             windows.par_iter().map(|window| SunPath::new(place, window, air)).collect::<Result<_, _>>()?;
@@ -29,17 +30,17 @@ impl<'a> SearchedDays<'a> {
     }
 }
 
-/// What probes are searched with.
+/// The search for the intervals of probes.
 pub struct ProbeSearch {
     casters: Mesh,
     rays: RayCaster,
     tree: FaceTree,
-    /// How many days of probes were asked second by second, since something disagreed.
+    /// The number of probe-days that were decided second by second, because two answers disagreed.
     distrusted: AtomicUsize,
 }
 
 impl ProbeSearch {
-    /// For probes that are judged at these points of the world.
+    /// Prepares a search for probes judged at these points of the world.
     pub fn new(casters: Mesh, points: &[JudgedPoint]) -> ProbeSearch {
         let reach = points.iter().map(|at| (at.point - casters.origin).abs().max_element());
         let reach = reach.fold(0.0, f64::max);
@@ -47,21 +48,21 @@ impl ProbeSearch {
         ProbeSearch { casters, rays, tree, distrusted: AtomicUsize::new(0) }
     }
 
-    /// The names of the components that cast.
+    /// Returns the names of the components that cast.
     pub fn components(&self) -> Vec<String> {
         self.casters.components.iter().map(|component| component.name.clone()).collect()
     }
 
-    /// How many days of probes were asked second by second, since polynomials and rays disagreed.
+    /// Returns the number of probe-days that were decided second by second, because polynomials and rays disagreed.
     #[cfg(feature = "test-hooks")]
     pub fn distrusted(&self) -> usize {
         self.distrusted.load(Ordering::Relaxed)
     }
 
-    /// A probe's intervals on some days.
+    /// Returns a probe's intervals on each of the days.
     ///
     /// # Errors
-    /// As of [`SunPath::new`].
+    /// As for [`SunPath::new`].
     pub fn intervals(&self, at: &JudgedPoint, days: &SearchedDays<'_>) -> Result<Vec<Vec<Interval>>, SunError> {
         if at.below_ground_m.is_some() {
             return Ok(vec![Vec::new(); days.paths.len()]);
@@ -71,7 +72,7 @@ impl ProbeSearch {
         days.paths.iter().zip(shades).map(|(path, shade)| self.of_day(at, path, shade)).collect()
     }
 
-    /// A day's intervals; where the exact rays at their ends do not say the same, those of a look at each second.
+    /// A day's intervals. If the exact rays at their ends contradict them, every second is tested instead.
     fn of_day(&self, at: &JudgedPoint, path: &SunPath<'_>, shade: Shade) -> Result<Vec<Interval>, SunError> {
         let lit = self.lit(at, path, shade)?;
         if let Some(found) = self.bounded(at, path, &lit)? {
@@ -83,7 +84,7 @@ impl ProbeSearch {
         Ok(self.bounded(at, path, &lit)?.unwrap_or_default())
     }
 
-    /// Runs of seconds, first and last, in sunlight.
+    /// Runs of seconds in sunlight, first and last.
     fn lit(&self, at: &JudgedPoint, path: &SunPath<'_>, mut shade: Shade) -> Result<Vec<[Second; 2]>, SunError> {
         shade.dark.sort_unstable();
         shade.doubtful.sort_unstable();
@@ -93,7 +94,7 @@ impl ProbeSearch {
         for up in &path.up_secs {
             let mut first = *up.start();
             while first <= *up.end() {
-                // what ends before the run is behind
+                // skip dark runs that end before this one
                 while dark.next_if(|run| run[1] < first).is_some() {}
                 match dark.peek() {
                     Some(run) if run[0] <= first => first = run[1] + 1,
@@ -108,7 +109,7 @@ impl ProbeSearch {
         Ok(lit)
     }
 
-    /// Adds the seconds of a run that are lit: all but the doubtful ones that the exact ray finds dark.
+    /// Adds the lit seconds of a run: all except the doubtful ones that the exact ray finds dark.
     fn without_doubt(
         &self,
         at: &JudgedPoint,
@@ -128,7 +129,7 @@ impl ProbeSearch {
         Ok(())
     }
 
-    /// Runs of lit seconds as intervals, with what blocks at their ends; none where a ray does not say the same of them.
+    /// Makes intervals of runs of lit seconds, with what blocks at their ends; `None` if an exact ray contradicts them.
     fn bounded(
         &self,
         at: &JudgedPoint,
@@ -160,13 +161,13 @@ impl ProbeSearch {
         Ok(Some(found))
     }
 
-    /// Whether a ray along the path's own direction meets a caster.
+    /// Whether a ray in the direction of the path's polynomial meets a caster.
     fn is_dark_by_path(&self, at: &JudgedPoint, path: &SunPath<'_>, second: Second) -> bool {
         let Some(piece) = path.piece_at(second) else { return true };
         self.rays.blocked(at.point - self.casters.origin, &Shear::along(piece.to_sun(second)))
     }
 
-    /// What blocks at a second, by the exact sun.
+    /// What blocks at a second, for the exact sun.
     fn blocked_at(
         &self,
         at: &JudgedPoint,
@@ -179,7 +180,7 @@ impl ProbeSearch {
         Ok(self.blocked(at, &path.exact(second)?))
     }
 
-    /// What keeps the sun from a probe; nothing in sunlight.
+    /// What blocks the sun from a probe; `None` in sunlight.
     fn blocked(&self, at: &JudgedPoint, instant: &Instant) -> Option<IntervalBound> {
         if instant.night {
             return Some(IntervalBound::Horizon);
@@ -194,11 +195,11 @@ impl ProbeSearch {
         Some(IntervalBound::Component(self.casters.components.partition_point(|component| component.faces.end <= face)))
     }
 
-    /// The slow twin: a probe's intervals on a day by rays at the instants of a grid, and halving between two of them that
-    /// differ. What is shorter than the step may be missed; at a step of one second nothing is.
+    /// The slow twin: finds a probe's intervals on a day by rays at the instants of a grid, and bisects between two
+    /// that differ. Intervals shorter than the step may be missed; at a step of one second, none is.
     ///
     /// # Errors
-    /// As of [`SunPath::new`].
+    /// As for [`SunPath::new`].
     #[cfg(feature = "test-hooks")]
     pub fn by_grid(
         &self,

@@ -1,9 +1,11 @@
-//! In which seconds faces keep the sun from a probe, of all days at once: from cell to cell of the band of the sky, each
+//! Finds the seconds in which faces block the sun from a probe, for all days at once. It descends the cells of the
+//! sky's band, each with only the faces that reach it.
 //! with the faces alone that reach it.
 //!
-//! A cell that no face reaches is lit and one that a single face fills is dark, without a look at its days. What is left is
-//! a day's slot: there the faces, the near ones first, take away the seconds that they surely cover, until none is left or no
-//! face is. Seconds so near a face's side that the polynomials cannot tell are doubtful: the exact ray decides them.
+//! A cell that no face reaches is lit, and one that a single face fills is dark, without a look at its single days.
+//! What remains are slots of single days. In each, the faces, nearest first, remove the seconds that they certainly
+//! cover, until no second or no face is left. Seconds so close to a face's side that the polynomials cannot decide are
+//! doubtful: the exact ray decides them.
 
 use super::face_tree::{BoxContents, FaceTree, SeenFace, SunCoverage};
 use super::sift::{Halfspace, Sureness, sift, sift_flat};
@@ -12,12 +14,12 @@ use super::sun_path::{MOST_OFF_RAD, SLOT_SECS, Second, SunPath, SunPiece};
 use glam::{DVec3, Vec3};
 use std::ops::Range;
 
-/// What is known of a probe's day.
+/// What is known about a probe's day.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Shade {
-    /// Runs of seconds, first and last, in which the probe is surely dark; in no order, and they may overlap.
+    /// Runs of seconds, first and last, in which the probe is certainly dark. They are unordered and may overlap.
     pub(super) dark: Vec<[Second; 2]>,
-    /// Seconds that the exact ray decides, where they are not dark.
+    /// Seconds that the exact ray decides, unless they are dark.
     pub(super) doubtful: Vec<Second>,
 }
 
@@ -25,26 +27,27 @@ pub(super) struct Shade {
 #[derive(Clone, Copy)]
 enum Candidate {
     Box(u32),
-    /// By its place in [`Descent::faces`].
+    /// By its index in [`Descent::faces`].
     Face(u32),
 }
 
-/// A probe's way through the cells.
+/// A probe's descent through the tree of cells.
 struct Descent<'a> {
     tree: &'a FaceTree,
     cells: &'a SunCells,
     paths: &'a [SunPath<'a>],
-    /// Around the mesh's origin.
+    /// The probe, relative to the mesh's origin.
     point: DVec3,
-    /// The plane of the probe as something that hides what is behind it.
+    /// The probe's plane, as an obstacle for what is behind it.
     behind: Option<Halfspace>,
-    /// What may reach the cells on the way to where the descent is; each cell's follow those of the cell around it.
+    /// A stack of what may reach the cells from the root to the current one; each cell's candidates follow its
+    /// parent's.
     reaching: Vec<Candidate>,
     faces: Vec<SeenFace>,
     shades: Vec<Shade>,
 }
 
-/// The shade of a probe on each of some days; `point` is around the mesh's origin.
+/// The shade of a probe on each of several days; `point` is relative to the mesh's origin.
 pub(super) fn shades(
     tree: &FaceTree,
     cells: &SunCells,
@@ -62,7 +65,7 @@ pub(super) fn shades(
 }
 
 impl<'a> Descent<'a> {
-    /// Looks at a cell, with what may reach the cell around it from `from` on.
+    /// Visits a cell. Its parent's candidates begin at index `from`.
     fn descend(&mut self, cell: u32, from: usize, mut is_before: bool) {
         let cell: &'a SunCell = &self.cells.cells[cell as usize];
         let (to, faces) = (self.reaching.len(), self.faces.len());
@@ -90,7 +93,7 @@ impl<'a> Descent<'a> {
             }
         }
         if cell.halves.is_empty() {
-            // no slot is so long; were one, each of its seconds would be asked
+            // cannot happen, as no slot is that long; if it did, every second would be decided exactly
             for shade in &mut self.shades[cell.days.clone()] {
                 shade.doubtful.extend(cell.slots.start * SLOT_SECS..cell.slots.end * SLOT_SECS);
             }
@@ -102,7 +105,7 @@ impl<'a> Descent<'a> {
         self.faces.truncate(faces);
     }
 
-    /// All of a cell is dark.
+    /// Marks a whole cell as dark.
     fn darken(&mut self, cell: &SunCell) {
         let run = [cell.slots.start * SLOT_SECS, cell.slots.end * SLOT_SECS - 1];
         for shade in &mut self.shades[cell.days.clone()] {
@@ -110,7 +113,7 @@ impl<'a> Descent<'a> {
         }
     }
 
-    /// Adds what of these reaches a pyramid; large boxes are opened. Returns whether one face fills it.
+    /// Adds those candidates that reach a pyramid, and opens large boxes. Returns whether one face fills the pyramid.
     fn filter(&mut self, of: Range<usize>, pyramid: &SunPyramid) -> bool {
         let mut open: Vec<u32> = Vec::new();
         for at in of {
@@ -144,7 +147,7 @@ impl<'a> Descent<'a> {
         false
     }
 
-    /// Adds a face where it reaches a pyramid. Returns whether it fills it.
+    /// Adds a face if it reaches a pyramid. Returns whether it fills it.
     fn add_face(&mut self, corners: &[Vec3; 3], pyramid: &SunPyramid) -> bool {
         let face = SeenFace::new(corners, self.point);
         let coverage = face.coverage(pyramid);
@@ -155,7 +158,7 @@ impl<'a> Descent<'a> {
         coverage == SunCoverage::Full
     }
 
-    /// Looks at a single day's slot.
+    /// Decides the slot of a single day.
     fn look_at_slot(&mut self, cell: &SunCell, pyramid: &SunPyramid, reaching: Range<usize>, is_before: bool) {
         let path = &self.paths[cell.days.start];
         let shade = &mut self.shades[cell.days.start];
@@ -169,7 +172,7 @@ impl<'a> Descent<'a> {
             Candidate::Box(at) => (tree.seen(at, point).nearest(), reaching),
         };
         let mut left: Vec<(f64, Candidate)> = self.reaching[reaching].iter().map(|reaching| far(*reaching)).collect();
-        // the nearest last, as of a stack
+        // a stack: the nearest is last
         left.sort_unstable_by(|one, other| other.0.total_cmp(&one.0));
         while let Some((_, next)) = left.pop() {
             if open.runs.is_empty() {
@@ -202,9 +205,9 @@ impl<'a> Descent<'a> {
     }
 }
 
-/// The seconds of a slot that nothing has covered yet.
+/// The seconds of a slot that nothing covers so far.
 struct OpenSeconds<'a> {
-    /// Runs, each of one piece, and from where to where they reach along the way of time.
+    /// Runs of seconds, each within one piece, with their extent along the direction of time.
     runs: Vec<([Second; 2], [f64; 2], &'a SunPiece)>,
     pyramid: &'a SunPyramid,
 }
@@ -228,12 +231,12 @@ impl<'a> OpenSeconds<'a> {
         (seconds, [along[0].min(along[1]) - MOST_OFF_RAD, along[0].max(along[1]) + MOST_OFF_RAD], piece)
     }
 
-    /// Whether what reaches so far along the way of time reaches an open second.
+    /// Whether an obstacle with this extent along the direction of time reaches an open second.
     fn reaches(&self, [low, high]: [f64; 2]) -> bool {
         self.runs.iter().any(|(_, along, _)| along[0] <= high && low <= along[1])
     }
 
-    /// Takes away what a face covers.
+    /// Removes what a face covers.
     fn shade(&mut self, face: &SeenFace, shade: &mut Shade) {
         if face.is_beside(self.pyramid) {
             return;
@@ -247,7 +250,7 @@ impl<'a> OpenSeconds<'a> {
         }
     }
 
-    /// Takes away what halfspaces cover together.
+    /// Removes what halfspaces cover together.
     fn take<const N: usize>(&mut self, halfspaces: &[Halfspace; N], [low, high]: [f64; 2], shade: &mut Shade) {
         let mut at = 0;
         while at < self.runs.len() {
@@ -277,7 +280,7 @@ impl<'a> OpenSeconds<'a> {
     }
 }
 
-/// What is left of a run of seconds without runs within it that follow each other.
+/// A run of seconds minus ordered runs within it.
 fn without([first, last]: [Second; 2], runs: &[[Second; 2]]) -> impl Iterator<Item = [Second; 2]> + '_ {
     let starts = std::iter::once(first).chain(runs.iter().map(|run| run[1] + 1));
     let ends = runs.iter().map(|run| run[0] - 1).chain(std::iter::once(last));

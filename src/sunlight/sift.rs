@@ -1,30 +1,32 @@
-//! At which seconds polynomials of the time are all above 0: surely, surely not, or so near 0 that the exact ray decides.
+//! Finds the seconds at which several polynomials of time are all positive: certainly, certainly not, or so close to 0
+//! that the exact ray decides.
 
 use super::sun_path::{Polynomial, Second, SunPiece};
 use glam::DVec3;
 
-/// What was found of some seconds.
+/// What is known about some seconds.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Sureness {
     Above,
     Doubtful,
 }
 
-/// Normals of planes through the probe, and how much of what the direction to the sun comes to before them may be error.
+/// A halfspace whose boundary passes through the probe, and its uncertainty: the part of a sun's distance from the
+/// boundary that may be error.
 #[derive(Clone, Copy)]
 pub(super) struct Halfspace {
     pub(super) normal: DVec3,
-    /// Beside that of the direction itself.
+    /// Besides the error of the direction itself.
     pub(super) slack: f64,
 }
 
-/// A polynomial with its bounds.
+/// A polynomial and its bounds.
 #[derive(Clone, Copy)]
 struct BoundedPolynomial {
     of: Polynomial<f64>,
-    /// What lies so near 0 may be either.
+    /// A value this close to 0 may have either sign.
     tolerance: f64,
-    /// An eighth of the most that its second derivative comes to.
+    /// An eighth of the greatest second derivative.
     bulge: f64,
 }
 
@@ -40,16 +42,16 @@ impl BoundedPolynomial {
         self.of.iter().rev().fold(0.0, |sum, part| sum * unit + part)
     }
 
-    /// Between which values it stays in a run of so many units, with these values at its ends.
+    /// Bounds of the values within a run of `units`, whose values at the ends are given.
     fn range(&self, [first, last]: [f64; 2], units: f64) -> [f64; 2] {
         let bulge = self.bulge * units * units;
-        // where the chord climbs more than the bulge does at its ends there is no extremum between them
+        // if the chord is steeper than the bulge is at its ends, there is no extremum between them
         let bulge = if (last - first).abs() >= 4.0 * bulge { 0.0 } else { bulge };
         [first.min(last) - bulge, first.max(last) + bulge]
     }
 }
 
-/// Runs of seconds of a piece in which all are above 0, or may be.
+/// Returns the runs of seconds of a piece in which all are positive, and those in which they may be.
 pub(super) fn sift<const N: usize>(
     halfspaces: &[Halfspace; N],
     piece: &SunPiece,
@@ -94,7 +96,7 @@ fn split<const N: usize>(
     split(bounded, piece, ([middle + 1, last], [at(middle + 1), values[1]]), found);
 }
 
-/// Seconds of a piece in which the planes' values may all have one sign: where the probe lies in a face's plane.
+/// Returns the seconds of a piece in which the values may all have the same sign, for a probe in a face's plane.
 pub(super) fn sift_flat(
     halfspaces: &[Halfspace; 3],
     piece: &SunPiece,

@@ -1,42 +1,42 @@
-//! The suns of several days, in cells of days and of times of day that halve each other: the band of the sky in which
-//! these suns lie. One tree serves all probes.
+//! A tree over the suns of several days: each cell is a range of days and times of day, and is halved. One tree serves
+//! all probes.
 
 use super::sun_path::{MOST_OFF_RAD, SLOT_SECS, SunPath, SunPiece};
 use glam::DVec3;
 use std::ops::Range;
 
-/// A pyramid, whose tip is the probe, around all suns of a cell.
+/// A pyramid around all suns of a cell, with its apex at the probe.
 pub(super) struct SunPyramid {
-    /// Towards its four corners.
+    /// The directions of its four corners.
     pub(super) corners: [DVec3; 4],
-    /// The normals of its four sides, inwards.
+    /// The inward normals of its four sides.
     pub(super) sides: [DVec3; 4],
-    /// The tangent of half its opening.
+    /// The tangent of half its opening angle.
     pub(super) half: f64,
-    /// Its axis, and across it the way of time.
+    /// Its axis. The direction of time is perpendicular to it.
     pub(super) axis: DVec3,
     pub(super) along: DVec3,
 }
 
-/// Some days and slots.
+/// A range of days and a range of slots.
 pub(super) struct SunCell {
     pub(super) days: Range<usize>,
     pub(super) slots: Range<i32>,
-    /// None where the suns lie too far apart for one.
+    /// `None` if the suns are too far apart for a pyramid.
     pub(super) pyramid: Option<SunPyramid>,
-    /// The two halves; none of a single day's single slot.
+    /// The two halves; empty for a single slot of a single day.
     pub(super) halves: Vec<u32>,
 }
 
 /// The tree.
 pub(super) struct SunCells {
     pub(super) cells: Vec<SunCell>,
-    /// The whole; none where the sun is never up.
+    /// The cell of all days; `None` if the sun is never up.
     pub(super) root: Option<u32>,
 }
 
 impl SunCells {
-    /// Of some days' paths.
+    /// The tree for the paths of some days.
     pub(super) fn new(paths: &[SunPath<'_>]) -> SunCells {
         let slots = |path: &SunPath<'_>| Some((path.pieces.first()?.first, path.pieces.last()?.last));
         let ends = paths.iter().filter_map(slots);
@@ -48,7 +48,7 @@ impl SunCells {
         cells
     }
 
-    /// Adds a cell and its halves; none where the sun is not up in it.
+    /// Adds a cell and its halves; `None` if the sun is not up in it.
     fn add(&mut self, paths: &[SunPath<'_>], days: Range<usize>, slots: Range<i32>) -> Option<u32> {
         let hull = hull(&paths[days.clone()], &slots);
         if hull.is_empty() {
@@ -72,7 +72,7 @@ impl SunCells {
     }
 }
 
-/// Points whose hull holds the suns of some days in some slots, in time's order within a day.
+/// Points whose convex hull contains the suns of some days and slots, in order of time within each day.
 fn hull(paths: &[SunPath<'_>], slots: &Range<i32>) -> Vec<DVec3> {
     let within = |path: &&SunPath<'_>| {
         let from = path.pieces.partition_point(|piece| piece.first < slots.start * SLOT_SECS);
@@ -83,9 +83,9 @@ fn hull(paths: &[SunPath<'_>], slots: &Range<i32>) -> Vec<DVec3> {
 }
 
 impl SunPyramid {
-    /// Around directions, of which those of a day follow each other; and how wide it is along and across time.
+    /// A pyramid around directions, in which those of a day are consecutive, with its width along and across time.
     fn around(directions: &[DVec3]) -> Option<(SunPyramid, [f64; 2])> {
-        /// No direction lies farther from the axis: cosine of 60°.
+        /// No direction may be farther from the axis than 60°: this is the cosine.
         const NARROW: f64 = 0.5;
         let axis = directions.iter().sum::<DVec3>().try_normalize()?;
         if directions.iter().any(|direction| direction.dot(axis) < NARROW) {

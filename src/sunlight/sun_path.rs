@@ -1,8 +1,9 @@
-//! The sun's way across the sky of a day, as polynomials that keep to the exact sun.
+//! The sun's path across the sky on a day, as polynomials that follow the exact sun.
 //!
-//! Declination, refraction and the equation of time move the sun within a day, so its way is no circle. Where it is up it is
-//! cut into pieces; in each a polynomial of the fifth degree goes through six exact suns, and is held against the exact sun
-//! between them: where it is off by more than a small part of a second the piece is halved.
+//! Declination, refraction and the equation of time change within a day, so the path is not a circle. The part above
+//! the horizon is cut into pieces. In each, a polynomial of the fifth degree passes through six exact suns and is
+//! compared with the exact sun between them; where it is off by more than a small part of a second, the piece is
+//! halved.
 
 use super::{Interval, IntervalBound};
 use crate::sun::{Air, DayWindow, Instant, Place, Sky, SunError, delta_t_secs};
@@ -10,60 +11,60 @@ use chrono::{DateTime, NaiveTime, TimeDelta, Utc};
 use glam::DVec3;
 use std::ops::RangeInclusive;
 
-/// No piece reaches over a multiple of so many seconds since the day's mean solar midnight.
+/// Pieces are cut at multiples of this many seconds since the day's mean solar midnight.
 pub(super) const SLOT_SECS: i32 = 3840;
 
 /// The degree of the polynomials.
 pub(super) const DEGREE: usize = 5;
 
-/// What the exact sun itself is uncertain by, radians: its time is a Julian date, in which 40 µs are the next number.
+/// The uncertainty of the exact sun itself, radians: its time is a Julian date, whose floating-point spacing is 40 µs.
 const NOISE_RAD: f64 = 1e-8;
 
-/// A polynomial that is found to be farther off is halved, radians. A second is 7e-5 of them.
+/// A polynomial with a larger error is halved, radians. In one second the sun moves by 7e-5.
 const FAR_RAD: f64 = 5e-7;
 
-/// More than any polynomial is off in a whole study, radians.
+/// More than the error of any polynomial in a study, radians.
 pub(super) const MOST_OFF_RAD: f64 = 1e-5;
 
-/// A piece this short is not halved, seconds.
+/// Pieces no longer than this are not halved, seconds.
 const SHORTEST_SECS: i32 = 8;
 
-/// What a second is called: the seconds since the day's mean solar midnight.
+/// Seconds since the day's mean solar midnight.
 pub(super) type Second = i32;
 
-/// A polynomial of the time in a piece, 0 to 1.
+/// A polynomial in the time within a piece, which runs from 0 to 1.
 pub(super) type Polynomial<T> = [T; DEGREE + 1];
 
 /// A run of seconds, and the directions to the sun in it.
 pub(super) struct SunPiece {
     pub(super) first: Second,
     pub(super) last: Second,
-    /// How long the polynomial's unit is, seconds.
+    /// The length of the polynomial's unit, seconds.
     pub(super) unit_secs: f64,
-    /// The direction, nearly of length 1.
+    /// The direction, of approximately unit length.
     pub(super) to_sun: Polynomial<DVec3>,
-    /// How far it lies at most from the exact one, radians.
+    /// Its greatest distance from the exact direction, radians.
     pub(super) off_rad: f64,
 }
 
-/// The sun of a day and all that is asked of it.
+/// The sun's path of a day.
 pub struct SunPath<'a> {
     sky: Sky<'a>,
     window: &'a DayWindow,
     base: DateTime<Utc>,
     /// When the sun is up within the window.
     pub up: Vec<Interval>,
-    /// The same as seconds.
+    /// `up` in seconds.
     pub(super) up_secs: Vec<RangeInclusive<Second>>,
-    /// In time's order, as far as the sun is up.
+    /// In order of time; together they cover `up`.
     pub(super) pieces: Vec<SunPiece>,
 }
 
 impl<'a> SunPath<'a> {
-    /// Of the part of a day that a window asks.
+    /// The path within a window of the day.
     ///
     /// # Errors
-    /// As of [`Sky::at`].
+    /// As for [`Sky::at`].
     pub fn new(place: &'a Place, window: &'a DayWindow, air: Option<Air>) -> Result<SunPath<'a>, SunError> {
         let sky = Sky { place, delta_t_secs: delta_t_secs(window.from.to_utc())?, air };
         let up = up(&sky, window)?;
@@ -82,21 +83,21 @@ impl<'a> SunPath<'a> {
         Ok(path)
     }
 
-    /// The seconds of the window, its end with them.
+    /// The seconds of the window, its end included.
     pub(super) fn asked(&self) -> RangeInclusive<Second> {
         self.second(self.window.from.to_utc())..=self.second(self.window.to.to_utc())
     }
 
-    /// The seconds in which the sun is up in an interval of [`SunPath::up`].
+    /// The seconds of an interval of [`SunPath::up`].
     fn seconds(&self, interval: &Interval) -> RangeInclusive<Second> {
         let end = self.second(interval.end.to_utc());
-        // at the end of the window it is up still
+        // at the window's end the sun is still up
         let last = if interval.after == IntervalBound::Window { end } else { end - 1 };
         self.second(interval.start.to_utc())..=last
     }
 
     fn second(&self, time: DateTime<Utc>) -> Second {
-        // a window lies within two days of its date
+        // fits: a window lies within two days of its date
         (time - self.base).num_seconds() as Second
     }
 
@@ -110,18 +111,18 @@ impl<'a> SunPath<'a> {
         self.sky.at(self.time(second))
     }
 
-    /// The exact direction some seconds after a second.
+    /// The exact direction a fraction of time after a second.
     fn after(&self, second: Second, secs: f64) -> Result<DVec3, SunError> {
         Ok(self.sky.at(self.time(second) + TimeDelta::nanoseconds((secs * 1e9) as i64))?.to_sun)
     }
 
-    /// The piece in which the sun is up at a second.
+    /// The piece that contains a second, if the sun is up then.
     pub(super) fn piece_at(&self, second: Second) -> Option<&SunPiece> {
         let at = self.pieces.partition_point(|piece| piece.last < second);
         self.pieces.get(at).filter(|piece| piece.first <= second)
     }
 
-    /// Adds the pieces of a run of seconds.
+    /// Adds the pieces for a run of seconds.
     fn fit(&mut self, first: Second, last: Second) -> Result<(), SunError> {
         let unit_secs = f64::from((last - first).max(1));
         let mut suns = [DVec3::ZERO; DEGREE + 1];
@@ -134,7 +135,7 @@ impl<'a> SunPath<'a> {
         }
         let mut piece = SunPiece { first, last, unit_secs, to_sun: through(suns), off_rad: NOISE_RAD };
         if last - first > 1 {
-            // where a polynomial through evenly spaced suns is off the most: in the first and the last gap
+            // a polynomial through evenly spaced points is off the most in the first and the last gap
             let mut off = 0.0f64;
             for at in [0.5 / DEGREE as f64, 1.0 - 0.5 / DEGREE as f64] {
                 off = off.max(value(&piece.to_sun, at).distance(self.after(first, unit_secs * at)?));
@@ -152,17 +153,17 @@ impl<'a> SunPath<'a> {
 }
 
 impl SunPiece {
-    /// Where a second lies in the piece.
+    /// The position of a second within the piece, 0 to 1.
     pub(super) fn unit(&self, second: Second) -> f64 {
         f64::from(second - self.first) / self.unit_secs
     }
 
-    /// The direction to the sun, as the polynomial has it.
+    /// The direction to the sun by the polynomial.
     pub(super) fn to_sun(&self, second: Second) -> DVec3 {
         value(&self.to_sun, self.unit(second))
     }
 
-    /// Points whose hull holds all directions of the piece: those of Bernstein's form.
+    /// Points whose convex hull contains all directions of the piece: the Bernstein control points.
     pub(super) fn hull(&self) -> [DVec3; DEGREE + 1] {
         let choose = |n: usize, k: usize| (0..k).fold(1.0, |value, at| value * (n - at) as f64 / (at + 1) as f64);
         std::array::from_fn(|at| {
@@ -171,7 +172,7 @@ impl SunPiece {
     }
 }
 
-/// When the sun is up within a window.
+/// The intervals of a window in which the sun is up.
 fn up(sky: &Sky<'_>, window: &DayWindow) -> Result<Vec<Interval>, SunError> {
     let [first, last] = [sky.at(window.from)?, sky.at(window.to)?];
     let mut open = (!first.night).then_some((window.from, IntervalBound::Window));
@@ -191,12 +192,11 @@ fn up(sky: &Sky<'_>, window: &DayWindow) -> Result<Vec<Interval>, SunError> {
     Ok(found)
 }
 
-/// The value of a polynomial.
 fn value(of: &Polynomial<DVec3>, at: f64) -> DVec3 {
     of.iter().rev().fold(DVec3::ZERO, |sum, part| sum * at + *part)
 }
 
-/// The polynomial through values at 0, 1/5, … 1: Newton's form, multiplied out.
+/// The polynomial through the values at 0, 1/5, …, 1: Newton's form, expanded.
 fn through(values: Polynomial<DVec3>) -> Polynomial<DVec3> {
     let gap = 1.0 / DEGREE as f64;
     let mut divided = values;
@@ -207,7 +207,7 @@ fn through(values: Polynomial<DVec3>) -> Polynomial<DVec3> {
     }
     let mut polynomial = [DVec3::ZERO; DEGREE + 1];
     for at in (0..=DEGREE).rev() {
-        // times (u − node), plus the coefficient
+        // multiply by (u − node), then add the coefficient
         let node = gap * at as f64;
         for power in (1..=DEGREE).rev() {
             polynomial[power] = polynomial[power - 1] - polynomial[power] * node;

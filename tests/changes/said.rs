@@ -59,7 +59,7 @@ fn it_is_said_with_the_hours() {
     assert!(done(at, &format!("{profile} --resolution step")).contains(alone));
     fails(at, &format!("{profile} --resolution 2h"), 2, &["--resolution", "longer than the step"]);
     let told = stderr(&gnomon(at, &format!("{profile} --technique ray-cast --sun-samples 2")));
-    assert!(told.contains("of the instants alone") && told.contains("--resolution step"), "{told}");
+    assert!(told.contains("from the instants alone") && told.contains("--resolution step"), "{told}");
     let plain = stderr(&gnomon(at, &format!("{profile} --resolution step --technique ray-cast --sun-samples 2")));
     assert!(!plain.contains("instants alone"), "{plain}");
 }

@@ -71,7 +71,7 @@ fn a_model_without_an_ending_is_converted() {
 fn footprints_without_heights_are_told_once() {
     let folder = site();
     fs::write(folder.path().join("town.geojson"), FOOTPRINT).unwrap();
-    fails(folder.path(), "check town.geojson", 1, &["says the height of none", "--default-height"]);
+    fails(folder.path(), "check town.geojson", 1, &["but no height of any of them", "--default-height"]);
     let told = stderr(&gnomon(folder.path(), "check town.geojson"));
     assert_eq!(told.matches("has 1 footprint").count(), 1, "{told}");
 }
@@ -88,7 +88,7 @@ fn sun_and_studies_have_one_elevation() {
     let sun = json(folder.path(), "sun hill.toml --json");
     assert_eq!((&study["place"], &sun["place"]["elevation"]), (&sun["place"], &60.0.into()));
     let told = stderr(&gnomon(folder.path(), "sun hill.toml"));
-    assert!(told.contains("land.xml says the elevation of the place, 60.00 m"), "{told}");
+    assert!(told.contains("land.xml gives the elevation of the place, 60.00 m"), "{told}");
     let place = json(
         folder.path(),
         "sun land.xml --place 48.8583,2.2945 --date 2026-09-18 --from 10:00 --to 12:00 --step 1h --json",

@@ -171,12 +171,17 @@ fn states_share_one_ground() {
     let (report, notes) = told(path, "compare platform.toml dug.toml");
     assert_eq!(ground(&report), (2.0, "lowest", 5.0));
     let note =
-        "dug.toml has the ground of platform.toml, 2.00 m, since a comparison has one; alone it would have 0.00 m";
+        "dug.toml has the ground of platform.toml, 2.00 m, since a comparison has only one; alone it would have 0.00 m";
     assert!(notes.contains(note), "{notes}");
     assert_eq!(report["sun_lost"]["m2_hours"], 0.0);
     let (_, notes) = told(path, "compare platform.toml platform.toml");
     assert!(!notes.contains("ground"), "{notes}");
-    fails(path, "compare platform.toml low.toml", 1, &["low.toml, [ground] level", "another ground", "2 m"]);
+    fails(
+        path,
+        "compare platform.toml low.toml",
+        1,
+        &["low.toml, [ground] level", "differs from the ground of", "2 m"],
+    );
     let (report, _) = told(path, "compare platform.toml low.toml --ground -0.5");
     assert_eq!(ground(&report), (-0.5, "site", 0.0));
 }
@@ -293,7 +298,7 @@ fn a_ground_that_is_none_is_refused() {
     let folder = towers();
     for level in ["nan", "inf", "1e9"] {
         let asked = format!("profile cellar.toml --ground {level}");
-        fails(folder.path(), &asked, 2, &["--ground", "no height of a ground", "0.0"]);
+        fails(folder.path(), &asked, 2, &["--ground", "not a height of the ground", "0.0"]);
     }
     fails(folder.path(), "profile cellar.toml --ground low", 2, &["--ground", "low"]);
     // no sun position asks for it

@@ -118,7 +118,7 @@ fn a_pergola_with_a_stray_shades_as_it_does_without() {
 
 #[test]
 fn a_stray_is_named_and_nothing_of_home_is_called_wrong() {
-    let words = "has 1 triangle of 'slats' as far as 60 km from all else";
+    let words = "has 1 triangle of 'slats' up to 60 km from everything else";
     for from in [From::Home, From::There] {
         let folder = strayed(Some(60_000.0), from);
         let shadow =

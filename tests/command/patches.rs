@@ -45,7 +45,7 @@ fn doubled_faces_count_once_in_all_files_and_are_told() {
     let tower = super::units::blocks(&[(low, [5.0, 20.0, 5.0]), (low, [5.0, 20.0, 5.0])]);
     std::fs::write(folder.path().join("tower.glb"), tower.glb()).unwrap();
     let output = gnomon(folder.path(), "profile . --receivers surfaces --patch-cell 0.5");
-    assert!(stderr(&output).contains("1000 m² of the surfaces are there twice and count once"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("1000 m² of the surfaces exist twice and count once"), "{}", stderr(&output));
     assert!(String::from_utf8_lossy(&output.stdout).contains("tower: 1000 m²"));
     let lines = lines(folder.path());
     assert_eq!(lines[0][1..3], ["all".to_owned(), "1000.000000".to_owned()]);
@@ -216,7 +216,7 @@ fn a_cell_that_is_too_small_grows_and_says_so() {
     assert_eq!(report["patch_cell_asked"], 0.0001);
     let cell = report["patch_cell"].as_f64().unwrap();
     assert!(
-        cell > 0.001 && told.contains("note: surfaces have texels of 0.006 m in place of 0.0001 m"),
+        cell > 0.001 && told.contains("note: surfaces have texels of 0.006 m instead of 0.0001 m"),
         "{cell}: {told}"
     );
 }
@@ -270,7 +270,7 @@ fn what_a_study_notes_stands_in_its_report() {
     // a disc's changes of light are not found
     let soft = "--size 20 --technique ray-cast --sun-samples 2";
     for command in ["profile .", "compare . ."] {
-        has(&format!("{command} {soft}"), "hours are summed of the instants alone");
+        has(&format!("{command} {soft}"), "hours are summed from the instants alone");
     }
     has("shadow . --at 2026-09-18T01:00 --size 20", "night: the sun is");
 }

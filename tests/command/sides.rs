@@ -111,9 +111,9 @@ fn what_a_side_cannot_have_is_told() {
     refused("--view south --cell 1", &["--cell", "--view south", "leave one out"]);
     refused("--view south --receivers ground", &["--receivers", "--view south"]);
     for show in ["volumes", "silhouette", "overdraw"] {
-        refused(&format!("--view south --show {show}"), &["--show", "rays alone draw a side", "leave it out"]);
+        refused(&format!("--view south --show {show}"), &["--show", "a side is drawn by ray casting", "leave it out"]);
     }
-    refused("--view south --stats", &["--stats", "rays alone draw a side"]);
+    refused("--view south --stats", &["--stats", "a side is drawn by ray casting"]);
     refused("--view south --technique stencil", &["--technique", "ray-cast"]);
     refused("--view south --engine gpu", &["--engine", "on the cpu"]);
     refused("--view south --silhouette hextree", &["--silhouette"]);

@@ -35,7 +35,7 @@ fn a_special_file_is_no_model() {
     let folder = site();
     let pipe = folder.path().join("pipe.glb");
     assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
-    fails(folder.path(), "check pipe.glb", 1, &["pipe.glb: is no regular file"]);
+    fails(folder.path(), "check pipe.glb", 1, &["pipe.glb: is not a regular file"]);
 }
 
 #[test]

@@ -138,7 +138,7 @@ fn a_model_that_is_taken_for_z_up_may_lie_the_other_way() {
     };
     let lying = site("");
     assert_eq!(lying.likenesses[0].mends, [Mend::Up(Up::Y)]);
-    let words = "model.stl looks as if it lay on its side, its y being up";
+    let words = "model.stl looks as if it lies on its side, with its y up";
     assert!(
         said(&lying.notes).iter().any(|note| note.contains(words) && note.contains("`up = \"y\"`")),
         "{:?}",
@@ -151,7 +151,7 @@ fn a_model_that_is_taken_for_z_up_may_lie_the_other_way() {
 
 #[test]
 fn a_model_on_its_side_is_told_and_stands_with_its_key() {
-    let words = "model.glb looks as if it lay on its side";
+    let words = "model.glb looks as if it lies on its side";
     let folder = folder(&lying(), "");
     let study = gnomon(folder.path(), "shadow . --at 2026-09-18T12:00 --mask m.png --engine cpu --size 50");
     for told in [done(folder.path(), "check ."), done(folder.path(), "check model.glb"), stderr(&study)] {

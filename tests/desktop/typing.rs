@@ -31,8 +31,8 @@ fn decimal_comma_is_a_decimal_point_in_every_number() {
     // what cannot be is no more taken than what cannot be read, and the field says what counts
     for (label, text, told) in [
         ("scale", "0", "0 is not between 0.000001 and 1000000 metres a unit"),
-        ("scale", "1,2,3", "\"1,2,3\" is no number; write for example 0.5 or 0,5"),
-        ("Elevation", "high", "\"high\" is no number"),
+        ("scale", "1,2,3", "\"1,2,3\" is not a number; write for example 0.5 or 0,5"),
+        ("Elevation", "high", "\"high\" is not a number"),
         ("Model north", "400", "400 is not between −360 and 360 degrees"),
     ] {
         enter(&mut harness, label, text);
@@ -43,7 +43,7 @@ fn decimal_comma_is_a_decimal_point_in_every_number() {
     assert_eq!(place(&harness).elevation, Some(0.152));
     // the next number that can be read takes the words away
     enter(&mut harness, "scale", "2");
-    assert!(!says(&harness, "\"1,2,3\" is no number"), "the scale was mended");
+    assert!(!says(&harness, "\"1,2,3\" is not a number"), "the scale was mended");
 }
 
 /// A field that is entered and left says what it said, also in the decimals that it does not show.
@@ -84,7 +84,7 @@ fn degrees_are_read_and_a_pasted_place_fills_both_fields() {
     for (label, text, told) in [
         ("Latitude", "98", "latitude 98 is not between −90 and 90 degrees"),
         ("Latitude", "98, 16", "latitude 98 is not between −90 and 90 degrees"),
-        ("Longitude", "east", "\"east\" is no longitude; write degrees"),
+        ("Longitude", "east", "\"east\" is not a longitude; write degrees"),
     ] {
         enter(&mut harness, label, text);
         assert!(says(&harness, told), "{text}");
@@ -115,10 +115,10 @@ fn dates_and_times_are_read_and_written_as_the_site_file_says_them() {
     let wanted = ["9:00", "16:30", "2026-12-21", "30min"];
     assert_eq!(study(&harness), wanted);
     for (label, text, told) in [
-        ("Window", "25", "\"25\" is no time; write 16:30, 16.30, 4 pm, sunrise or sunset-1h30"),
+        ("Window", "25", "\"25\" is not a time; write 16:30, 16.30, 4 pm, sunrise or sunset-1h30"),
         ("to", "24:00", "a day has no 24 o'clock; write 0:00 for its end"),
         ("Study date", "05/06/2026", "can be 5 June 2026 or 6 May 2026; write 2026-06-05 or 2026-05-06"),
-        ("step", "30", "\"30\" is no step; write 30min, 1h, 1h30 or 90s"),
+        ("step", "30", "\"30\" is not a step; write 30min, 1h, 1h30 or 90s"),
     ] {
         write(&mut harness, label, text);
         settle(&mut harness);
@@ -186,7 +186,7 @@ fn dialog_stays_open_over_what_cannot_be_read() {
     };
     write(&mut harness, "Latitude, longitude", "Vienna");
     settle(&mut harness);
-    assert!(says(&harness, "\"Vienna\" is no place; write latitude and longitude in degrees"));
+    assert!(says(&harness, "\"Vienna\" is not a place; write latitude and longitude in degrees"));
     assert_eq!(value(&harness, "Latitude, longitude"), "Vienna");
     write(&mut harness, "Latitude, longitude", "98, 16.37");
     settle(&mut harness);
@@ -194,8 +194,8 @@ fn dialog_stays_open_over_what_cannot_be_read() {
     write(&mut harness, "Model north", "up");
     write(&mut harness, "Latitude, longitude", "48,2; 16,37");
     settle(&mut harness);
-    assert!(says(&harness, "\"up\" is no number"), "the north cannot be read");
-    assert!(!says(&harness, "is no place"), "the place was mended");
+    assert!(says(&harness, "\"up\" is not a number"), "the north cannot be read");
+    assert!(!says(&harness, "is not a place"), "the place was mended");
     write(&mut harness, "Model north", "22,5°");
     go(&mut harness);
     let site = harness.state().site_file();

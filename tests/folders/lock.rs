@@ -96,7 +96,7 @@ fn a_link_in_the_place_of_the_lock_is_not_followed() {
     let model = bytes(&path.join("tower.glb"));
     fs::create_dir(path.join("out")).unwrap();
     std::os::unix::fs::symlink("../tower.glb", path.join("out/.gnomon.lock")).unwrap();
-    fails(path, SHORT, 1, &["out", ".gnomon.lock is no file"]);
+    fails(path, SHORT, 1, &["out", ".gnomon.lock is not a file"]);
     assert!(bytes(&path.join("tower.glb")) == model);
     // a lock that another user left, whose file we may not write to, is taken over
     fs::remove_file(path.join("out/.gnomon.lock")).unwrap();

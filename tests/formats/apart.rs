@@ -135,11 +135,11 @@ mod bad_readers {
     #[test]
     fn one_that_breaks_off_is_told_with_its_last_words() {
         let told = told("echo \"thread 'main' panicked at reader.rs:7:\" >&2; echo 'no such wall' >&2; exit 101");
-        assert!(told.contains("its reader broke off") && told.contains("no such wall"), "{told}");
+        assert!(told.contains("its reader failed") && told.contains("no such wall"), "{told}");
         assert!(super::bad_readers::told("kill -ABRT $$").contains("signal: 6"));
         let long = "x".repeat(300);
         for (said, ends) in [
-            ("info: loaded libEGL\\nhint: libEGL, see man", "broke off (exit status: 3)"),
+            ("info: loaded libEGL\\nhint: libEGL, see man", "failed (exit status: 3)"),
             ("gnomon: no such door\\nnote: run with `RUST_BACKTRACE=1`", "(exit status: 3): gnomon: no such door"),
             (
                 "thread '<unnamed>' (12) panicked at a.rs:1:\\nno floor\\nnote: run with it\\nlibEGL warning",
@@ -155,7 +155,7 @@ mod bad_readers {
 
     #[test]
     fn one_that_gives_something_else_is_told() {
-        assert!(told("echo 'a model, I promise, of many a wall'").contains("they begin with another mark"));
+        assert!(told("echo 'a model, I promise, of many a wall'").contains("they begin with a different mark"));
         let cut = format!("\"{}\" \"$@\" | head -c 400", env!("CARGO_BIN_EXE_gnomon"));
         assert!(told(&cut).contains("they end early"));
     }

@@ -144,14 +144,14 @@ fn damaged_meshopt_is_refused() {
     refused(&elements[..elements.len() - 1], &NEW, "TRIANGLES", "NONE", &["buffer view 0"]);
     refused(&elements, &NEW[..17], "TRIANGLES", "NONE", &["buffer view 1"]);
     refused(&elements, &NEW, "SQUARES", "NONE", &["buffer view 1"]);
-    refused(&elements, &NEW, "TRIANGLES", "BLUR", &["a filter that is not known"]);
+    refused(&elements, &NEW, "TRIANGLES", "BLUR", &["an unknown filter"]);
     // an edge that was never written
     let mut code = NEW;
     code[1] = 0x20;
     refused(&elements, &code, "TRIANGLES", "NONE", &["buffer view 1"]);
     let mut json = meshopt("EXT_meshopt_compression", &elements, &NEW, "TRIANGLES", "NONE", 2);
     json["bufferViews"][0]["extensions"]["EXT_meshopt_compression"]["count"] = json!(4_000_000_000_u64);
-    assert_refused("m.gltf", json.to_string().as_bytes(), &["another size than its elements"]);
+    assert_refused("m.gltf", json.to_string().as_bytes(), &["a different size than its elements"]);
 }
 
 /// Draco's sequential method (specification, chapters 3 to 5): plain indices, and positions as they are.
@@ -192,7 +192,7 @@ fn draco_is_unpacked() {
     };
     refused(&|json| json["accessors"][0]["count"] = json!(4), &["unpacks to 3 vertices", "accessor 0"]);
     refused(&|json| json["accessors"][1]["count"] = json!(6), &["unpacks to 3 corners", "accessor 1"]);
-    refused(&|json| json["meshes"][0]["primitives"][0]["mode"] = json!(5), &["no list of triangles"]);
+    refused(&|json| json["meshes"][0]["primitives"][0]["mode"] = json!(5), &["not a list of triangles"]);
     refused(&|json| json["bufferViews"][0]["byteLength"] = json!(bytes.len() - 9), &["cannot be unpacked"]);
     refused(&|json| json["bufferViews"][0]["byteLength"] = json!(bytes.len() + 1), &["bytes 0–"]);
 }

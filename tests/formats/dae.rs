@@ -104,7 +104,7 @@ fn units_axes_and_matrices_are_the_files_own() {
         let model = read_bytes("house.dae", document(unit, up, &faces_in(1.0, Up::Z), "").as_bytes());
         assert_is_building(&model);
         let told = model.notes[0].to_string();
-        assert!(model.unit_m.is_none() && told.contains(unit) && told.contains("taken for metres"), "{told}");
+        assert!(model.unit_m.is_none() && told.contains(unit) && told.contains("taken as metres"), "{told}");
     }
 }
 
@@ -148,20 +148,20 @@ fn what_is_wrong_is_told() {
     let refused = |text: &str, words: &[&str]| assert_refused("m.dae", text.as_bytes(), words);
     refused(&text[..text.len() - "</COLLADA>".len()], &["cut off"]);
     refused(&text.replace("</technique_common>", "</technique>"), &["damaged XML at byte"]);
-    refused(&text.replace("<p>0 0 ", "<p>0 900 "), &["`shell` at vertex 900, and there are 12"]);
+    refused(&text.replace("<p>0 0 ", "<p>0 900 "), &["`shell` with vertex 900, but there are only 12"]);
     refused(&text.replace("<p>0 0 ", "<p>0 -1 "), &["`-1`"]);
-    refused(&text.replace("<vcount>6", "<vcount>600"), &["fewer corners than it counts"]);
+    refused(&text.replace("<vcount>6", "<vcount>600"), &["fewer corners than it states"]);
     refused("<html/>", &["not Collada", "`html`"]);
     refused(&text.replace("<rotate>0 1 0 90", "<rotate>0 1 90"), &["`House`", "with matrices"]);
-    refused(&text.replace("#c\"/>", "#i\"/>"), &["nodes that hold themselves"]);
+    refused(&text.replace("#c\"/>", "#i\"/>"), &["nodes that contain themselves"]);
     let deep = format!("{}{}", "<node>".repeat(200), "</node>".repeat(200));
-    refused(&text.replace("<library_nodes>", &format!("<library_nodes>{deep}")), &["nodes in nodes deeper than 100"]);
+    refused(&text.replace("<library_nodes>", &format!("<library_nodes>{deep}")), &["nodes nested more than 100 deep"]);
     // each stands for ten of the next
     let many: String = (0..30)
         .map(|at| format!("<node id=\"n{at}\">{}</node>", format!("<instance_node url=\"#n{}\"/>", at + 1).repeat(10)))
         .collect();
     let many = text.replace("<library_nodes>", &format!("<library_nodes>{many}")).replace("#c\"/>", "#n0\"/>");
-    refused(&many, &["more than can be placed"]);
+    refused(&many, &["more nodes than can be placed"]);
     let elsewhere =
         text.replace("</visual_scene>", "<node><instance_node url=\"../other.dae#c\"/></node></visual_scene>");
     assert_eq!(left_out(&read_bytes("m.dae", elsewhere.as_bytes())), ["1 nodes of other files"]);

@@ -179,9 +179,9 @@ fn blocks_are_placed() {
     assert_is_building(&model);
     assert_eq!(left_out(&model), ["20 entities of the layer DARK", "1 entities of the layer COLD"]);
 
-    // a block that holds itself, and more copies than there is memory for
+    // a block that contains itself, and more copies than there is memory for
     let loop_of = |name: &str| begin(name, DVec3::ZERO).and(insert("0")).put(0, "ENDBLK");
-    assert_refused("m.dxf", &drawing(loop_of("Tower"), insert("0")).text(), &["block that holds itself", "TOWER"]);
+    assert_refused("m.dxf", &drawing(loop_of("Tower"), insert("0")).text(), &["block that contains itself", "TOWER"]);
     let many = Groups::default().entity("INSERT", "0").put(2, "Shell").put(70, 32_767).put(71, 32_767);
     assert_refused("m.dxf", &drawing(inner, many).text(), &["more than 100000000 triangles", "blocks counted"]);
 }
@@ -244,7 +244,7 @@ fn everything_left_out_is_told() {
     let expected =
         ["1 3DFACE", "1 HATCH", "1 INSERT", "1 TEXT", "1 entities of the paper space", "2 3DSOLID", "2 LINE"];
     assert_eq!(told, expected);
-    assert!(model.notes[1].to_string().contains("1 closed outline with a thickness that has walls and no lid"));
+    assert!(model.notes[1].to_string().contains("1 closed outline with a thickness that has walls but no lid"));
     assert!(
         model.notes[0].to_string().contains("2 solids or surfaces of ACIS")
             && model.notes[0].to_string().contains("MESHSMOOTH")

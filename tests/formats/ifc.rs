@@ -206,7 +206,7 @@ fn a_file_without_a_unit_is_told() {
     let model = read(&house("").replace("IFCUNITASSIGNMENT((#3,#4))", "IFCUNITASSIGNMENT((#4))"));
     assert_eq!(model.unit_m, None);
     lies(part(&model, "IfcWall/Brick"), [5000.0, -3000.0, 0.0], [15000.0, 17000.0, 30000.0]);
-    assert!(notes(&model).contains("says no unit of length, so that its numbers are taken for metres"));
+    assert!(notes(&model).contains("gives no unit of length, so its numbers are taken as metres"));
 }
 
 #[test]
@@ -285,7 +285,7 @@ fn a_file_that_is_cut_off_is_refused_wherever_it_is_cut() {
 fn records_that_cannot_be_read_are_counted_with_what_they_mean() {
     let text = house("#99999999999999=IFCWALL('x',$,$,$,$,#20,#104,$,$);\n");
     let notes = notes(&read(&text));
-    let told = "has 1 record that cannot be read, and what it describes is missing; export it again";
+    let told = "has 1 record that cannot be read, so what it describes is missing; export it again";
     assert!(notes.contains(told), "{notes}");
 }
 
@@ -304,7 +304,7 @@ fn shapes_whose_records_are_missing_are_told_as_that() {
             .fold(text, |text, kind| text.replace(&format!("'Body','{kind}',{items}"), "'Axis','Curve2D',(#101)"))
     });
     let axes = lost(&axes);
-    assert!(axes.contains("lines, boxes or points alone"), "{axes}");
+    assert!(axes.contains("only lines, boxes or points"), "{axes}");
 }
 
 #[test]

@@ -81,7 +81,7 @@ fn what_is_wrong_is_told() {
     refused(text.replace("ascii", "morse").as_bytes(), &["morse"]);
     refused(text.replace("end_header", "").as_bytes(), &["header without an end"]);
     refused(text.replace("element face 8", "element face 0").as_bytes(), &["a cloud of 12 points"]);
-    refused(text.replacen("6 0 1", "6 0 77", 1).as_bytes(), &["vertex 77, and there are 12"]);
+    refused(text.replacen("6 0 1", "6 0 77", 1).as_bytes(), &["vertex 77, but there are only 12"]);
 }
 
 #[test]

@@ -63,7 +63,7 @@ fn solids_are_parts_and_empty_ones_are_told() {
 fn what_is_cut_off_is_told() {
     let whole = binary("");
     let refused = |bytes: &[u8], words: &[&str]| assert_refused("m.stl", bytes, words);
-    refused(&whole[..whole.len() - 1], &["promises 20 triangles, and holds 19", "cut off"]);
+    refused(&whole[..whole.len() - 1], &["states 20 triangles, but has 19", "cut off"]);
     refused(b"", &["no STL"]);
     // one that promises fewer than it holds
     let mut fewer = whole.clone();
@@ -71,7 +71,7 @@ fn what_is_cut_off_is_told() {
     let model = read_bytes("m.stl", &fewer);
     assert_eq!(triangles(&model).count(), 1);
     let told = model.notes[0].to_string();
-    assert!(told.contains("promises 1 triangle") && told.contains("950 bytes behind them, room for 19 more"), "{told}");
+    assert!(told.contains("promises 1 triangle") && told.contains("950 more bytes, enough for 19 more"), "{told}");
     assert!(read_bytes("m.stl", &[&whole[..], &[0; 49]].concat()).notes.is_empty());
     let text = text(&["house"]);
     let facet = text.rfind("outer").unwrap();

@@ -135,9 +135,9 @@ fn a_grid_without_terrain_is_refused_with_the_way_out() {
         read("hills.asc", &text, &ReadOptions::default()).expect_err("no terrain")
     };
     let empty = refused("2", "-9 -9\n-9 -9");
-    assert!(empty.contains("has no heights: none of its 4 cells has one; export the part"), "{empty}");
+    assert!(empty.contains("has no heights in any of its 4 cells; export the part"), "{empty}");
     let line = refused("1", "3 4");
-    assert!(line.contains("has 2 heights, and no three of them side by side; export a larger part"), "{line}");
+    assert!(line.contains("has 2 heights, but no three next to each other; export a larger part"), "{line}");
 }
 
 #[test]
@@ -291,7 +291,7 @@ fn small<C: colortype::ColorType<Inner = u8>>(metadata: &str, [scale, height]: [
 #[test]
 fn a_picture_that_lies_somewhere_is_refused_and_a_grey_one_doubted() {
     let told = read("a.tif", small::<colortype::RGB8>("", [0.0; 2]), &ReadOptions::default()).expect_err("a picture");
-    assert!(told.contains("is a picture (RGB) and no terrain"), "{told}");
+    assert!(told.contains("is a picture (RGB) and not terrain"), "{told}");
     let grey = read("a.tif", small::<colortype::Gray8>("", [0.0; 2]), &ReadOptions::default()).unwrap();
     assert!(notes(&grey).contains("numbers of 8 bits"), "{}", notes(&grey));
 }
@@ -316,7 +316,7 @@ fn usual_numbers_for_no_height_are_none_with_a_note() {
         let bytes = geotiff(&tags, |height| height.unwrap_or(none) as f32);
         let model = read("hills.tif", bytes, &ReadOptions::default()).unwrap();
         assert!(model.parts[0].positions.iter().all(|at| (80.0..120.0).contains(&at.z)), "{none}");
-        assert!(notes(&model).contains("which number stands for no height; taken for none:"), "{}", notes(&model));
+        assert!(notes(&model).contains("which number means no height; taken as missing:"), "{}", notes(&model));
     }
     let heads = head().replace("NODATA_value -9999\n", "");
     assert!(notes(&read("a.asc", ascii_grid(&heads), &ReadOptions::default()).unwrap()).contains("none: -9999"));
@@ -351,7 +351,7 @@ fn landxml_is_northing_easting_and_height() {
     assert!(notes(&unsaid).contains("they are taken as feet, as its coordinates are"), "{}", notes(&unsaid));
     let refused =
         |from: &str, to: &str| read("ground.xml", LAND.replace(from, to), &ReadOptions::default()).expect_err(to);
-    assert!(refused("7 9 8", "7 9 5").contains("not all of them are there"));
+    assert!(refused("7 9 8", "7 9 5").contains("some of which are missing"));
     assert!(refused("20 10 100", "20 10").contains("northing, easting and height in point 7"));
     assert!(refused("</Pnts>", "</Points>").contains("damaged at byte"));
 }

@@ -99,7 +99,7 @@ fn an_elevation_that_nobody_wrote_is_a_files() {
     for component in [0, 1] {
         assert!(corners(&site.mesh, component).iter().all(|corner| corner.z.abs() < 0.01), "{component}");
     }
-    assert!(told(&site).contains("house.glb says the elevation of the place, 110"), "{}", told(&site));
+    assert!(told(&site).contains("house.glb gives the elevation of the place, 110"), "{}", told(&site));
     // what is written counts
     let site = load(&format!("{place}elevation = 0.0\n{models}"), &both).expect("written");
     assert_eq!((site.place.elevation_m, corners(&site.mesh, 1)[0].z.round()), (0.0, 110.0));
@@ -204,10 +204,10 @@ fn a_model_without_a_place_beside_one_that_has_it_is_told() {
     let town = || on_map("EPSG:25832", [UTM, [UTM[0] + 20.0, UTM[1]], [UTM[0], UTM[1] + 30.0]], 0.0);
     let unplaced = |site: &str, town: Model, house: Model| {
         let site = load(site, &[("town.glb", town), ("house.glb", house)]).expect(site);
-        said(&site.notes).into_iter().find(|note| note.contains("says no place"))
+        said(&site.notes).into_iter().find(|note| note.contains("gives no place"))
     };
     let note = unplaced(models, town(), drawing()).expect("a note");
-    let wanted = "house.glb says no place: its zero stands at the middle of town.glb, with its y to the north";
+    let wanted = "house.glb gives no place: its zero stands at the middle of town.glb, with its y to the north";
     assert!(note.starts_with(wanted) && note.contains("`position`") && note.contains("`north`"), "{note}");
     let house = || anchored(vec![map_anchor(0.0)]);
     let note = unplaced(models, house(), Model { up: Up::Y, ..drawing() }).expect("a note");
@@ -238,11 +238,11 @@ fn norths_are_compared_without_the_map() {
 #[test]
 fn keys_that_contradict_the_file_are_told() {
     let site = one("scale = 0.001\nup = \"y\"\n", drawing()).expect("millimetres");
-    assert!(told(&site).contains("has a unit of 0.001 m by `scale`, and of 1 m by itself"), "{}", told(&site));
-    assert!(told(&site).contains("has y up by `up`, and z by itself"), "{}", told(&site));
+    assert!(told(&site).contains("has a unit of 0.001 m by `scale`, and of 1 m by its file"), "{}", told(&site));
+    assert!(told(&site).contains("has y up by `up`, and z by its file"), "{}", told(&site));
     let site =
         one("scale = 0.001\nup = \"y\"\n", Model { unit_m: None, up_is_said: false, ..drawing() }).expect("unsaid");
-    assert!(!told(&site).contains("by itself"), "{}", told(&site));
+    assert!(!told(&site).contains("by its file"), "{}", told(&site));
 }
 
 #[test]

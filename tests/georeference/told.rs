@@ -112,9 +112,9 @@ fn units_that_are_taken_are_told() {
     let crs = "crs = \"EPSG:2263\"\n";
     assert_says(
         &notes(crs, unsaid.clone()),
-        &["says no unit", "that of its map, 0.3048006096 m", "`scale` under [[model]]"],
+        &["does not give its unit", "that of its map, 0.3048006096 m", "`scale` under [[model]]"],
     );
-    assert!(!notes(&format!("{crs}scale = 0.3048\n"), unsaid.clone()).contains("says no unit"));
+    assert!(!notes(&format!("{crs}scale = 0.3048\n"), unsaid.clone()).contains("does not give its unit"));
     let checked = reference(&format!("{place}{MODEL}{crs}"), &unsaid);
     assert!((checked.unit_m - 1200.0 / 3937.0).abs() < 1e-12 && !checked.unit_is_said, "{checked:?}");
     let named = |unit_m| Model { unit_m, coordinates: Coordinates::Map("EPSG:2263".to_owned()), ..feet.clone() };

@@ -225,7 +225,7 @@ fn targets_that_do_not_fit_are_refused() {
         let few = model.f32s("VEC3", &[0.0; 21]);
         model.primitive()["targets"][0]["POSITION"] = json!(few);
     };
-    with(&fewer).refused(&["has a morph target for 7 vertices, and there are 8"]);
+    with(&fewer).refused(&["has a morph target for 7 vertices, but has 8 vertices"]);
     with(&|model| model.json["meshes"][0]["weights"] = json!([1e38, 0])).part();
     let endless = |model: &mut Model| model.bytes[164..168].copy_from_slice(&f32::INFINITY.to_le_bytes());
     let mut model = with(&|_| ());
@@ -261,7 +261,7 @@ fn skins_without_a_pose_are_refused() {
     };
     let identity = [1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1.];
     matrices(identity, 1).part();
-    matrices(identity, 2).refused(&["skin 0", "2 joints, and inverse bind matrices for 1"]);
+    matrices(identity, 2).refused(&["skin 0", "2 joints, but inverse bind matrices for 1"]);
     matrices([0.0; 16], 1).refused(&["skin 0", "joint 0"]);
     matrices(identity.map(|number| number * f32::NAN), 1).refused(&["skin 0", "joint 0"]);
     with(&|model| model.json["nodes"][1]["rotation"] = json!([0, 0, 0, 0])).refused(&["node 1", "rotation"]);
@@ -283,7 +283,7 @@ fn joints_that_do_not_fit_are_refused() {
         let joints = model.accessor("VEC4", U8, 7, &[0; 28]);
         model.primitive()["attributes"]["JOINTS_0"] = json!(joints);
     };
-    with(&few).refused(&["joints for 7 vertices, and there are 8"]);
+    with(&few).refused(&["joints for 7 vertices, but has 8 vertices"]);
     let unknown = |weight: f32| {
         with(&|model| {
             let joints = model.accessor("VEC4", U8, 8, &[0, 5, 0, 0].repeat(8));
@@ -292,7 +292,7 @@ fn joints_that_do_not_fit_are_refused() {
             (attributes["JOINTS_0"], attributes["WEIGHTS_0"]) = (json!(joints), json!(weights));
         })
     };
-    unknown(0.5).refused(&["at vertex", "the joint 5, and its skin has only 1"]);
+    unknown(0.5).refused(&["the joint 5 at vertex", "but its skin has only 1"]);
     assert_eq!(bounds(&unknown(0.0).part()), standing(30.0), "what has no weight moves nothing");
     let instanced = |model: &mut Model| {
         let shifts = model.f32s("VEC3", &[0.0; 6]);

@@ -39,7 +39,7 @@ fn damaged_containers_are_refused() {
     assert_refused(with(8..12, &u32::MAX.to_le_bytes()), &["promises 4294967295 bytes"]);
     assert_refused(with(8..12, &3_u32.to_le_bytes()), &["promises 3 bytes"]);
     assert_refused(with(8..12, &16_u32.to_le_bytes()), &["chunk's header has 4 of 8 bytes"]);
-    assert_refused(with(12..16, &0xffff_u32.to_le_bytes()), &["a chunk promises 65535 bytes"]);
+    assert_refused(with(12..16, &0xffff_u32.to_le_bytes()), &["a chunk states 65535 bytes"]);
     assert_refused(with(16..20, b"BIN\0"), &["first chunk is not JSON"]);
 }
 
@@ -105,7 +105,7 @@ fn transforms_without_a_meaning_are_refused() {
     changed(|json| {
         json["nodes"] = json!([{"mesh": 0, "scale": [1e300, 1, 1]}, {"children": [0], "scale": [1e300, 1, 1]}])
     })
-    .refused(&["node 0", "beyond all numbers"]);
+    .refused(&["node 0", "coordinates that are too large"]);
 }
 
 #[test]
@@ -168,7 +168,7 @@ fn damaged_compression_is_refused() {
     assert_eq!(model.part().triangles.len(), 1, "the plain copy is read");
     let placeholder = json!({"byteLength": 36, "extensions": {"EXT_meshopt_compression": {"fallback": true}}});
     model.json["buffers"] = json!([placeholder]);
-    model.refused(&["buffer view 0", "does not say where its bytes lie", "meshopt", "without mesh compression"]);
+    model.refused(&["buffer view 0", "does not say where its bytes are", "meshopt", "without mesh compression"]);
 }
 
 #[test]
@@ -184,7 +184,7 @@ fn buffers_outside_the_folder_are_refused() {
         at(uri).refused(&["buffer 0", "outside the model's folder"]);
     }
     for uri in ["data\\walls.bin", "..\\walls.bin", "data%5Cwalls.bin"] {
-        at(uri).refused(&["buffer 0", "parted by /, not by a backslash"]);
+        at(uri).refused(&["buffer 0", "separated by /, not by a backslash"]);
     }
     for uri in
         ["http://example.com/x.bin", "https://example.com/x.bin", "file:///etc/passwd", "//host/x.bin", "C:/x.bin"]

@@ -60,7 +60,7 @@ fn hiding_is_inherited() {
         "has 3 nodes with a mesh that are hidden (KHR_node_visibility) and left out, at \"options\" and \"shed\"";
     assert_eq!(said(&read.notes), [told]);
     model.json["nodes"][1]["extensions"] = hidden(false);
-    model.refused(&["no triangles", "hidden (KHR_node_visibility)", "show what stands there"]);
+    model.refused(&["no triangles", "hidden (KHR_node_visibility)", "show them, and export the model again"]);
 }
 
 #[test]
@@ -105,7 +105,7 @@ fn a_scene_is_chosen_by_name_or_number() {
         assert_eq!(names(&read), [node], "{scene:?}");
         assert_eq!(read.notes.is_empty(), is_asked, "who has asked knows it");
     }
-    let told = "has 3 scenes, and \"Fa\u{e7}ade\" (1) is read; `scene` under [[model]] in a site file reads another, by name \
+    let told = "has 3 scenes, of which \"Fa\u{e7}ade\" (1) is read; `scene` under [[model]] in a site file selects another, by name \
                 or number: \"existing\" (0) and 2";
     assert_eq!(said(&read(&model, None).unwrap().notes), [told]);
     let mut one = model;

@@ -210,7 +210,7 @@ fn mistakes_are_told() {
     };
     for (from, to, words) in [
         ("point = [0, 20, 1.5]", "", &["point in [[probe]] number 1", "point = ["][..]),
-        ("point = [0, 20, 1.5]", "point = [0, nan, 1]", &["[[probe]] number 1 point", "no point"]),
+        ("point = [0, 20, 1.5]", "point = [0, nan, 1]", &["[[probe]] number 1 point", "not a point"]),
         ("point = [0, 20, 1.5]", "point = [0, 20]", &["[[probe]] number 1 point", "length 3"]),
         ("[0, -2, 0]", "[0, 0, 0]", &["[[probe]] number 1 normal", "no direction"]),
         ("[0, -2, 0]", "[0, inf, 0]", &["[[probe]] number 1 normal", "no direction"]),

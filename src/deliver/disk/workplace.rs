@@ -136,7 +136,7 @@ fn lock(folder: &Path, asked: &Path, who: &str) -> Result<io::Result<File>, Expo
 fn open(path: &Path) -> io::Result<(File, bool)> {
     // what a link leads to is not ours to be written to
     if path.symlink_metadata().is_ok_and(|found| !found.is_file()) {
-        return Err(io::Error::new(ErrorKind::AlreadyExists, format!("{} is no file", path.display())));
+        return Err(io::Error::new(ErrorKind::AlreadyExists, format!("{} is not a file", path.display())));
     }
     match OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path) {
         Err(error) if error.kind() == ErrorKind::PermissionDenied => {

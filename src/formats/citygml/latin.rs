@@ -1,13 +1,13 @@
-//! Text in Latin-1, which the XML reader does not know → UTF-8.
+//! Converts Latin-1 text, which the XML parser does not read, to UTF-8.
 
 use crate::formats::ModelFault;
 use crate::message::message;
 use std::io::{BufRead, BufReader, Cursor, Read};
 
-/// Bytes at the beginning in which the encoding is named.
+/// The bytes at a file's beginning in which the encoding is declared.
 const HEAD_BYTES: u64 = 200;
 
-/// The text of a file in UTF-8, whatever its first line says it is in.
+/// The text of a file in UTF-8, whatever encoding its first line declares.
 pub(super) fn decoded(mut file: impl Read + 'static) -> Result<Box<dyn BufRead>, ModelFault> {
     let mut head = Vec::new();
     file.by_ref().take(HEAD_BYTES).read_to_end(&mut head).map_err(ModelFault::unreadable)?;
@@ -21,16 +21,17 @@ pub(super) fn decoded(mut file: impl Read + 'static) -> Result<Box<dyn BufRead>,
     Ok(if is_latin { Box::new(BufReader::new(Latin { bytes, rest: None })) } else { Box::new(BufReader::new(bytes)) })
 }
 
-/// Latin 1, byte by byte as UTF-8. What Windows has between 128 and 160 is only in names, and becomes blanks there.
+/// Converts Latin-1 to UTF-8 byte by byte. Characters of Windows-1252 between 128 and 160 occur only in names, and
+/// become spaces.
 struct Latin<R> {
     bytes: R,
-    /// The second byte of a letter of which the first is given.
+    /// The second byte of a character whose first is already written.
     rest: Option<u8>,
 }
 
 impl<R: Read> Read for Latin<R> {
     fn read(&mut self, to: &mut [u8]) -> std::io::Result<usize> {
-        // each byte becomes two at most, and one may be left from before
+        // each byte becomes at most two, and one may be left over
         let Some(room) = to.len().checked_sub(1) else { return Ok(0) };
         let mut from = [0; 4096];
         let many = (room / 2).min(from.len());
@@ -54,7 +55,7 @@ impl<R: Read> Read for Latin<R> {
 }
 
 impl<R: Read> Latin<R> {
-    /// Where there is no room for a whole letter.
+    /// Reads a single byte, if there is no room for a whole character.
     fn read_one(&mut self, to: &mut [u8]) -> std::io::Result<usize> {
         let mut byte = [0];
         let next = match self.rest.take() {

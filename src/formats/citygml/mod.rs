@@ -1,9 +1,9 @@
-//! CityGML 2 and 3 → parts. The text is read event by event, without building a tree; kept are the coordinates, and
+//! Reads CityGML 2 and 3. The text is read event by event, without building a tree. Only the coordinates are kept, and
 //! which geometry belongs to which object.
 //!
 //! The files of this folder, in the order of the flow: `latin` (older encodings), `tables` (what is kept), `scan`
-//! (events → tables), `polygon` (positions → rings), `objects` (which geometries of which objects are taken, and where
-//! references lead).
+//! (events to tables), `polygon` (positions to rings), `objects` (which geometries of which objects are used, and what
+//! references lead to).
 
 use super::city::CityBuilder;
 use super::crs::{NamedSystem, is_north_first, named_system};
@@ -54,14 +54,14 @@ impl Format for CityGml {
             let left_out: Vec<String> =
                 model.left_out.iter().map(|one| format!("{} {}: {}", one.count, one.what, one.why)).collect();
             let why = if left_out.is_empty() { String::new() } else { format!(" ({})", crate::message::few(left_out)) };
-            let what = format!("has no surfaces that stand there{why}");
+            let what = format!("has no surfaces that can be used{why}");
             return Err(message![what; "export it with a level of detail of 1 or higher"].into());
         }
         Ok(model)
     }
 }
 
-/// Puts eastings (or longitudes) first where the file has them second, and says what the coordinates are.
+/// Swaps coordinates to easting (or longitude) first if the file has them second, and says what the coordinates are.
 fn brought_in_order(tables: &mut GmlTables) -> (Coordinates, Vec<Message>) {
     let mut notes = Vec::new();
     let Some(said) = tables.system.clone() else {
@@ -77,7 +77,7 @@ fn brought_in_order(tables: &mut GmlTables) -> (Coordinates, Vec<Message>) {
         ); "export it in one reference system"]);
     }
     if is_official && is_north_first(&crs) {
-        // beyond 90 degrees there are longitudes alone
+        // beyond 90 degrees there are only longitudes
         let is_degrees = tables.points.iter().all(|point| point.x.abs() <= 180.0 && point.y.abs() <= 180.0);
         if is_degrees && tables.points.iter().any(|point| point.x.abs() > 90.0) {
             notes.push(message![format!(
@@ -91,7 +91,8 @@ fn brought_in_order(tables: &mut GmlTables) -> (Coordinates, Vec<Message>) {
     (Coordinates::Map(crs), notes)
 }
 
-/// German surveyors write the zone of UTM before the easting, which the code's own coordinates do not have.
+/// Removes the number of the UTM zone that German surveyors write before the easting, and that the system's coordinates
+/// do not have.
 fn without_zone(crs: &str, points: &mut [DVec3]) -> Option<Message> {
     let zone: u32 = crs.strip_prefix("EPSG:258")?.parse().ok().filter(|zone| (28..=38).contains(zone))?;
     let prefix = f64::from(zone) * 1e6;
@@ -100,6 +101,6 @@ fn without_zone(crs: &str, points: &mut [DVec3]) -> Option<Message> {
     }
     points.iter_mut().for_each(|point| point.x -= prefix);
     Some(message![format!(
-        "has eastings with the number of their zone, {zone}, before them, which {crs} has not: it is taken off"
+        "has eastings that begin with the number of their zone, {zone}, which {crs} does not have: it is removed"
     )])
 }

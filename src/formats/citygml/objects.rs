@@ -1,4 +1,4 @@
-//! Which objects are taken, with which of their geometries, and where references lead.
+//! Selects objects and their geometries, and resolves references.
 
 use super::tables::{GmlGeometry, GmlMember, GmlMemberKind, GmlObject, GmlTables, NamedGml};
 use crate::formats::ModelFault;
@@ -8,10 +8,10 @@ use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::hash::{Hash as _, Hasher as _};
 
-/// How deep references may lead to further ones.
+/// The most references that may follow each other.
 const MOST_DEEP: usize = 8;
 
-/// How often as many polygons as a file has may stand there, when objects share them.
+/// How many times a file's number of polygons may be added, if objects share them.
 const MOST_SHARED: usize = 8;
 
 /// Adds the objects of a file.
@@ -31,7 +31,7 @@ pub(super) fn add(tables: &GmlTables, builder: &mut CityBuilder) -> Result<(), M
             kind if is_inside(kind) => Some("inside of a building"),
             "CityObjectGroup" => Some("outlines of groups"),
             _ if replaced.get(&object.serial).is_some_and(|parts| parts.lod >= best.lod) => {
-                Some("parts of it stand instead")
+                Some("its parts are used instead")
             }
             _ => None,
         };
@@ -51,7 +51,7 @@ pub(super) fn add(tables: &GmlTables, builder: &mut CityBuilder) -> Result<(), M
     Ok(())
 }
 
-/// The highest level of detail of which there is more than a few surfaces: windows alone are no house.
+/// The highest level of detail with more than a few surfaces: windows alone are not a house.
 fn best_of(own: &[&GmlGeometry]) -> Option<Rank> {
     let lod_of = |is_wanted: &dyn Fn(u8) -> bool| own.iter().map(|one| one.lod).filter(|&lod| is_wanted(lod)).max();
     let is_whole = |lod: u8| {
@@ -64,7 +64,7 @@ fn best_of(own: &[&GmlGeometry]) -> Option<Rank> {
     Some(Rank { is_solid, lod: f64::from(lod) })
 }
 
-/// How good the parts of objects are that have some.
+/// The rank of the parts of each object that has some.
 fn replaced(objects: &[GmlObject], best: &[Option<Rank>]) -> FxHashMap<u64, Rank> {
     let mut replaced: FxHashMap<u64, Rank> = FxHashMap::default();
     for (part, best) in objects.iter().zip(best).filter(|(object, _)| is_part(&object.kind)) {
@@ -77,8 +77,8 @@ fn replaced(objects: &[GmlObject], best: &[Option<Rank>]) -> FxHashMap<u64, Rank
     replaced
 }
 
-/// The geometries of one level of detail, those of the surfaces first: they say what a polygon is of. Gives how many
-/// polygons there are.
+/// Adds the geometries of one level of detail. Those of surfaces come first, since they say which surface a polygon
+/// belongs to. Returns the number of polygons.
 fn add_geometries(
     tables: &GmlTables,
     own: &[&GmlGeometry],
@@ -93,19 +93,19 @@ fn add_geometries(
                 seen.may_repeat = is_surface;
                 add_members(tables, members, &geometry.surface, false, MOST_DEEP, &mut seen, builder)?;
             } else {
-                builder.tally.add("geometries", "another level of detail of the object stands there");
+                builder.tally.add("geometries", "another level of detail of the object is used");
             }
         }
     }
     Ok(seen.polygons.len())
 }
 
-/// What of an object is added already.
+/// What was already added of an object.
 #[derive(Default)]
 struct SeenOfObject {
     polygons: FxHashSet<usize>,
     groups: FxHashSet<(usize, usize)>,
-    /// Where the surfaces' polygons lie: some exporters write those of the solid a second time.
+    /// Hashes of the surfaces' polygons: some exporters write those of the solid a second time.
     places: FxHashSet<u64>,
     may_repeat: bool,
 }
@@ -136,8 +136,8 @@ fn add_members(
                     add_members(tables, members, surface, is_turned, deep - 1, seen, builder)?;
                 }
             }
-            Some(NamedGml::Members(_)) => builder.tally.add("xlink:href", "the reference leads on and on"),
-            None => builder.tally.add("xlink:href", "the reference leads to nothing in the file"),
+            Some(NamedGml::Members(_)) => builder.tally.add("xlink:href", "the chain of references is too long"),
+            None => builder.tally.add("xlink:href", "the reference is not in the file"),
         }
     }
     Ok(())
@@ -169,7 +169,7 @@ fn add_polygon(
     builder.face(surface, points, &ends, is_turned)
 }
 
-/// A number for the corners of a polygon, to a tenth of a millimetre, in whatever order.
+/// A hash of a polygon's corners, to a tenth of a millimetre, in any order.
 fn place_of(points: &[DVec3]) -> u64 {
     let number = |point: &DVec3| {
         let mut hasher = rustc_hash::FxHasher::default();

@@ -1,10 +1,9 @@
-//! GML positions → rings.
+//! Reads GML positions as rings.
 
 use super::tables::{GmlPolygon, GmlTables};
 use glam::DVec3;
 
-/// Adds positions that are written one after the other. Which of two and three numbers a position has is said by the file;
-/// three are the rule.
+/// Adds consecutive positions. The file says whether a position has two or three numbers; the default is three.
 pub(super) fn add_positions(text: &str, dimension: Option<u8>, points: &mut Vec<DVec3>) -> Result<(), &'static str> {
     let first = points.len();
     let mut numbers = text.split_ascii_whitespace().map(|number| number.parse::<f64>().unwrap_or(f64::NAN));
@@ -26,10 +25,10 @@ pub(super) fn add_positions(text: &str, dimension: Option<u8>, points: &mut Vec<
         return Ok(());
     }
     points.truncate(first);
-    Err("positions that are no numbers, or are missing")
+    Err("positions that are not numbers, or are missing")
 }
 
-/// Where a polygon begins, and how far it is read.
+/// A polygon that is being read.
 #[derive(Clone, Copy, Default)]
 pub(super) struct OpenPolygon {
     first_point: usize,
@@ -48,12 +47,12 @@ impl OpenPolygon {
         }
     }
 
-    /// It is left out, whatever follows.
+    /// Leaves the polygon out, whatever follows.
     pub(super) fn give_up(&mut self) {
         self.is_broken = true;
     }
 
-    /// Ends a ring. One that repeats its first point is as one that does not.
+    /// Ends a ring. Its last point may repeat the first.
     pub(super) fn end_ring(&mut self, tables: &mut GmlTables) {
         let ring = &tables.points[self.first_of_ring.min(tables.points.len())..];
         if ring.len() > 1 && ring.first() == ring.last() {
@@ -65,7 +64,7 @@ impl OpenPolygon {
         }
     }
 
-    /// Ends it: its number, where it is one.
+    /// Ends the polygon. Returns its index, unless it is left out.
     pub(super) fn end(mut self, tables: &mut GmlTables) -> Option<usize> {
         // triangles of some exporters have positions without a ring around them
         self.end_ring(tables);

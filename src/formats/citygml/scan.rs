@@ -1,5 +1,5 @@
-//! XML events → tables. Elements are known by their local names, which are the same in versions 2 and 3 with few
-//! exceptions.
+//! Reads XML events into tables. Elements are recognised by their local names, which are the same in versions 2 and 3
+//! with few exceptions.
 
 use super::polygon::{OpenPolygon, add_positions};
 use super::tables::{GmlGeometry, GmlMember, GmlMemberKind, GmlObject, GmlTables, NamedGml};
@@ -11,16 +11,16 @@ use std::io::BufRead;
 /// The deepest that elements may be nested.
 const MOST_DEEP: usize = 200;
 
-/// Of a name or an id that is kept.
+/// The longest name or id that is kept.
 const MOST_NAME_BYTES: usize = 1000;
 
-/// What an element is for the elements in it.
+/// The role of an element for the elements within it.
 enum ElementRole {
-    /// An object, or what may be one: it is one if it contains a geometry.
+    /// An object, or a candidate: it is an object if it contains a geometry.
     Feature(GmlFeature),
     /// A property with the geometry of a feature.
     Property(GmlProperty),
-    /// Members of a surface, a shell or a solid, from this one on.
+    /// A surface, a shell or a solid, whose members begin at this index.
     Group {
         first: usize,
         is_turned: bool,
@@ -28,7 +28,7 @@ enum ElementRole {
     /// A polygon, a patch or a triangle.
     Polygon,
     Ring,
-    /// Text that is wanted, numbers or letters.
+    /// Text that is read, numbers or letters.
     Text,
     /// An element whose content is skipped.
     Skipped,
@@ -39,11 +39,11 @@ enum ElementRole {
 struct GmlFeature {
     serial: u64,
     kind: String,
-    /// Whether it is a surface of the feature around it.
+    /// Whether it is a surface of the enclosing feature.
     is_surface: bool,
     name: Option<String>,
     object: Option<usize>,
-    /// How many objects and shapes of libraries there were before it.
+    /// The number of objects and of library shapes before it.
     before: (usize, u64),
 }
 
@@ -53,15 +53,14 @@ struct GmlProperty {
     first: usize,
 }
 
-/// An element that is open.
+/// An element that has not ended yet.
 struct OpenElement {
     role: ElementRole,
     id: Option<String>,
-    /// Numbers a position, as the nearest element says it.
+    /// The numbers in a position, as the nearest element says.
     dimension: Option<u8>,
 }
 
-/// Reads a file to its end.
 pub(super) fn scan(text: Box<dyn BufRead>) -> Result<GmlTables, Message> {
     let mut reader = Reader::from_reader(text);
     let mut scan = GmlScan {
@@ -104,7 +103,7 @@ pub(super) fn scan(text: Box<dyn BufRead>) -> Result<GmlTables, Message> {
     Ok(scan.tables)
 }
 
-/// The letter of an entity that XML itself has; others are not expanded.
+/// The character of an entity that XML itself defines; others are not expanded.
 fn predefined(name: &str) -> &'static str {
     match name {
         "amp" => "&",
@@ -125,7 +124,7 @@ struct GmlScan {
     implicit: u64,
 }
 
-/// GmlAttributes that matter.
+/// The attributes that are used.
 #[derive(Default)]
 struct GmlAttributes {
     id: Option<String>,
@@ -145,7 +144,7 @@ impl GmlScan {
         if is_within_skipped || is_skipped(name) {
             if !is_within_skipped && name == "ImplicitGeometry" {
                 self.implicit += 1;
-                self.tables.tally.add("ImplicitGeometry", "shapes of a library, placed by a reference");
+                self.tables.tally.add("ImplicitGeometry", "library shapes that are placed by a reference");
             }
             self.frames.push(OpenElement { role: ElementRole::Skipped, id: None, dimension: None });
             return Ok(());
@@ -196,7 +195,7 @@ impl GmlScan {
                 return ElementRole::Polygon;
             }
             "Arc" | "ArcString" | "Circle" | "ArcByCenterPoint" | "BSpline" if self.polygon.is_some() => {
-                self.tables.tally.add(name, "bounds of faces, of which only the points are taken");
+                self.tables.tally.add(name, "bounds of faces, of which only the points are read");
             }
             _ => {}
         }
@@ -224,7 +223,7 @@ impl GmlScan {
         ElementRole::Other
     }
 
-    /// How many objects and shapes of libraries there are.
+    /// The number of objects and of library shapes so far.
     fn told(&self) -> (usize, u64) {
         (self.tables.objects.len(), self.implicit)
     }
@@ -245,7 +244,7 @@ impl GmlScan {
         property.into_iter().for_each(|property| property.is_solid = true);
     }
 
-    /// A reference from within a geometry, or from the property that has it.
+    /// Records a reference within a geometry, or in the property that contains it.
     fn refer(&mut self, name: &str, href: &str) {
         let is_geometry = name.starts_with("lod")
             || matches!(
@@ -256,7 +255,7 @@ impl GmlScan {
             return;
         }
         let Some(id) = href.strip_prefix('#') else {
-            self.tables.tally.add("xlink:href", "the reference leads to another file");
+            self.tables.tally.add("xlink:href", "the reference is to another file");
             return;
         };
         self.add_member(GmlMemberKind::Reference(id.to_owned()));
@@ -336,7 +335,7 @@ impl GmlScan {
         }
     }
 
-    /// The property's geometry is its object's, or a surface's of that.
+    /// Ends a property. Its geometry belongs to its object, or to one of the object's surfaces.
     fn end_property(&mut self, property: GmlProperty, name: &str) {
         let members = property.first..self.tables.members.len();
         if members.is_empty() || self.is_taken(&members) {
@@ -350,14 +349,14 @@ impl GmlScan {
             _ => None,
         });
         let Some(object) = self.object() else {
-            self.tables.tally.add("geometries", "of no object");
+            self.tables.tally.add("geometries", "they belong to no object");
             return;
         };
         let surface = surface.unwrap_or_default();
         self.tables.geometries.push(GmlGeometry { object, surface, lod: property.lod, is_solid, members });
     }
 
-    /// Whether members are another geometry's already: a property around the surfaces of a building holds all of theirs.
+    /// Whether members already belong to a geometry: a property around a building's surfaces contains all of theirs.
     fn is_taken(&self, members: &std::ops::Range<usize>) -> bool {
         self.tables.geometries.last().is_some_and(|last| last.members.end > members.start)
     }
@@ -388,7 +387,7 @@ impl GmlScan {
     }
 }
 
-/// Elements that have polygons which stand nowhere, or none.
+/// Elements whose polygons are not used, or that have none.
 fn is_skipped(name: &str) -> bool {
     matches!(
         name,
@@ -426,7 +425,7 @@ fn is_group(name: &str) -> bool {
     )
 }
 
-/// Elements that begin with a capital and are no features.
+/// Elements that begin with a capital but are not features.
 fn is_never_feature(name: &str) -> bool {
     matches!(
         name,
@@ -434,7 +433,7 @@ fn is_never_feature(name: &str) -> bool {
     )
 }
 
-/// Surfaces of the feature that they are in: those around a building, its openings, the lanes of a road.
+/// Surfaces of the enclosing feature: those around a building, its openings, the lanes of a road.
 fn is_surface(name: &str) -> bool {
     name.ends_with("Surface") || matches!(name, "Door" | "Window" | "TrafficArea" | "AuxiliaryTrafficArea")
 }

@@ -1,14 +1,14 @@
-//! What is kept of a file while it is read.
+//! The tables that a file is read into.
 
 use crate::formats::left_out::LeftOutTally;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use std::ops::Range;
 
-/// Everything of a file that matters.
+/// Everything that is kept of a file.
 #[derive(Default)]
 pub(super) struct GmlTables {
-    /// Corners of all polygons, as the file has them.
+    /// Corners of all polygons, as in the file.
     pub points: Vec<DVec3>,
     /// The end of each ring in `points`.
     pub ends: Vec<usize>,
@@ -17,23 +17,23 @@ pub(super) struct GmlTables {
     pub members: Vec<GmlMember>,
     pub geometries: Vec<GmlGeometry>,
     pub objects: Vec<GmlObject>,
-    /// The geometries to which `gml:id`s refer.
+    /// The geometries by `gml:id`.
     pub ids: FxHashMap<String, NamedGml>,
-    /// The first reference system that is named.
+    /// The first reference system in the file.
     pub system: Option<String>,
-    /// The number of geometries that name another system.
+    /// The number of geometries in other systems.
     pub other_systems: u64,
     pub tally: LeftOutTally,
 }
 
-/// A polygon: corners and ring ends in the tables.
+/// A polygon: its corners and the ends of its rings in the tables.
 #[derive(Clone)]
 pub(super) struct GmlPolygon {
     pub points: Range<usize>,
     pub ends: Range<usize>,
 }
 
-/// What a geometry is made of.
+/// A member of a geometry.
 pub(super) struct GmlMember {
     pub what: GmlMemberKind,
     /// Whether it is seen from behind.
@@ -46,7 +46,7 @@ pub(super) enum GmlMemberKind {
     Reference(String),
 }
 
-/// What an id names.
+/// What an id refers to.
 #[derive(Clone)]
 pub(super) enum NamedGml {
     Polygon(usize),
@@ -54,7 +54,7 @@ pub(super) enum NamedGml {
     Members(Range<usize>),
 }
 
-/// A geometry of an object, or of one of the surfaces around it.
+/// A geometry of an object, or of one of its surfaces.
 pub(super) struct GmlGeometry {
     pub object: usize,
     /// `RoofSurface`; empty for the object's own geometry.
@@ -64,13 +64,13 @@ pub(super) struct GmlGeometry {
     pub members: Range<usize>,
 }
 
-/// A building, a part of one, a tree.
+/// A building, a part of one, a tree, and so on.
 pub(super) struct GmlObject {
     pub kind: String,
     pub id: String,
     pub name: Option<String>,
     /// The number of its element, by which its parts refer to it.
     pub serial: u64,
-    /// The elements around it, from the outermost, with their ids.
+    /// The enclosing elements, from the outermost, with their ids.
     pub around: Vec<(u64, String)>,
 }

@@ -1,4 +1,4 @@
-//! The JSON of CityJSON → structure. No index in it is checked yet.
+//! Parses the JSON of CityJSON. Indices are not checked yet.
 
 use serde::de::{Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, de};
@@ -6,7 +6,7 @@ use serde_json::Value;
 use std::borrow::Cow;
 use std::fmt;
 
-/// A file of CityJSON, or one line of a sequence.
+/// A CityJSON file, or one line of a sequence.
 #[derive(Deserialize)]
 pub(super) struct CityDocument<'a> {
     /// `CityJSON` or `CityJSONFeature`.
@@ -25,7 +25,7 @@ pub(super) struct CityDocument<'a> {
     pub metadata: Option<CityMetadata>,
 }
 
-/// How vertices become coordinates.
+/// The transform from vertices to coordinates.
 #[derive(Clone, Copy, Deserialize)]
 pub(super) struct VertexTransform {
     pub scale: [f64; 3],
@@ -44,7 +44,7 @@ pub(super) struct CityMetadata {
     pub reference_system: Option<String>,
 }
 
-/// Shapes that objects are instances of.
+/// The shapes that objects are instances of.
 #[derive(Default, Deserialize)]
 pub(super) struct GeometryTemplates {
     #[serde(default)]
@@ -53,7 +53,7 @@ pub(super) struct GeometryTemplates {
     pub vertices: Vec<[f64; 3]>,
 }
 
-/// In the file's order, each with its id.
+/// In file order, each with its id.
 #[derive(Default)]
 pub(super) struct CityObjects<'a>(pub Vec<(Cow<'a, str>, CityObject<'a>)>);
 
@@ -69,7 +69,7 @@ pub(super) struct CityObject<'a> {
     pub attributes: Option<ObjectAttributes>,
 }
 
-/// What people call an object.
+/// An object's usual name.
 #[derive(Default, Deserialize)]
 #[serde(default)]
 pub(super) struct ObjectAttributes {
@@ -94,7 +94,7 @@ pub(super) struct CityGeometry {
     pub matrix: Option<[f64; 16]>,
 }
 
-/// Vertices, in lists of lists: a ring, or what is made of rings.
+/// Vertices in nested lists: a ring, or something made of rings.
 pub(super) enum Boundaries {
     Ring(Vec<u32>),
     Lists(Vec<Boundaries>),
@@ -120,7 +120,7 @@ pub(super) struct SemanticSurface {
     pub kind: String,
 }
 
-/// Which surface each face is of, in lists as those of the boundaries.
+/// The surface of each face, in lists that are nested as the boundaries are.
 #[derive(Default)]
 pub(super) enum SurfaceNumbers {
     #[default]
@@ -129,7 +129,7 @@ pub(super) enum SurfaceNumbers {
     Lists(Vec<SurfaceNumbers>),
 }
 
-/// A text, or a number as one: levels of detail are both.
+/// Text, or a number as text: levels of detail are written as either.
 fn text<'de, D: Deserializer<'de>>(from: D) -> Result<Option<String>, D::Error> {
     Ok(match Value::deserialize(from)? {
         Value::String(text) => Some(text),
@@ -162,11 +162,11 @@ impl<'de> Visitor<'de> for ObjectsVisitor {
     }
 }
 
-/// A key, borrowed where it has no escapes.
+/// A key, borrowed if it has no escapes.
 #[derive(Deserialize)]
 struct Key<'a>(#[serde(borrow)] Cow<'a, str>);
 
-/// What begins a list of boundaries.
+/// The first element of a list of boundaries.
 enum FirstBoundary {
     Vertex(u32),
     List(Boundaries),
@@ -255,7 +255,7 @@ impl<'de> Visitor<'de> for SurfaceNumbersVisitor {
         Ok(usize::try_from(number).map_or(SurfaceNumbers::None, SurfaceNumbers::Number))
     }
 
-    // −1 is written for none
+    // −1 means none
     fn visit_i64<E: de::Error>(self, _: i64) -> Result<SurfaceNumbers, E> {
         Ok(SurfaceNumbers::None)
     }

@@ -1,5 +1,5 @@
-//! CityJSON 1.0 to 2.0 and CityJSONSeq → parts. The files of this folder, in the order of the flow: `document` (JSON →
-//! structure), `objects` (which geometries of which objects are taken), `surfaces` (boundaries → faces).
+//! Reads CityJSON 1.0 to 2.0 and CityJSONSeq. The files of this folder, in the order of the flow: `document` (parses
+//! the JSON), `objects` (selects objects and their geometries), `surfaces` (boundaries to faces).
 
 use super::city::CityBuilder;
 use super::crs::{is_north_first, named_system};
@@ -36,14 +36,14 @@ impl Format for CityJson {
     }
 }
 
-/// Reads one document, or a first one with the transform and then a feature a line.
+/// Reads one document; or a sequence, with the transform in the first line and a feature in each of the others.
 fn read(bytes: &[u8], options: &ReadOptions) -> Result<Model, ModelFault> {
     let mut json = serde_json::Deserializer::from_slice(bytes);
     let head = CityDocument::deserialize(&mut json).map_err(|error| damaged(&error))?;
     check_head(&head)?;
     let transform = head.transform.unwrap_or_default();
     if transform.scale.iter().chain(&transform.translate).any(|number| !number.is_finite()) {
-        return Err(message!["has a transform with a number that is none"; "export it again"].into());
+        return Err(message!["has a transform with a value that is not a number"; "export it again"].into());
     }
     let step = head.transform.map(|transform| transform.scale.iter().fold(0.0, |most: f64, step| most.max(step.abs())));
     let mut builder = CityBuilder::new(step, options.told_step(1.0));
@@ -54,8 +54,8 @@ fn read(bytes: &[u8], options: &ReadOptions) -> Result<Model, ModelFault> {
         count += 1;
         let feature = feature.map_err(|error| damaged(&error))?;
         if feature.kind != "CityJSONFeature" {
-            let what = format!("has a line of the type \"{}\" behind its first", super::left_out::label(&feature.kind));
-            return Err(message![what; "a sequence has one CityJSON, and then a CityJSONFeature a line"].into());
+            let what = format!("has a line of the type \"{}\" after its first", super::left_out::label(&feature.kind));
+            return Err(message![what; "a sequence has one CityJSON, and then a CityJSONFeature on each line"].into());
         }
         objects::add(&feature, &transform, &templates, &mut builder)?;
     }
@@ -87,8 +87,8 @@ fn check_head(head: &CityDocument<'_>) -> Result<(), Message> {
     }
     let version = head.version.as_deref().unwrap_or_default();
     if !["1.", "2."].iter().any(|known| version.starts_with(known)) {
-        let what = format!("is CityJSON {}, and Gnomon reads 1.0 to 2.0", super::left_out::label(version));
-        return Err(message![what; "bring it to 2.0 with `cjio in.json upgrade save out.json`"]);
+        let what = format!("is CityJSON {}, but Gnomon reads 1.0 to 2.0", super::left_out::label(version));
+        return Err(message![what; "convert it to 2.0 with `cjio in.json upgrade save out.json`"]);
     }
     Ok(())
 }
@@ -96,12 +96,12 @@ fn check_head(head: &CityDocument<'_>) -> Result<(), Message> {
 fn damaged(error: &serde_json::Error) -> Message {
     let what = match error.classify() {
         serde_json::error::Category::Eof => format!("is cut off ({error})"),
-        _ => format!("is not JSON as CityJSON has it ({error})"),
+        _ => format!("is not valid CityJSON ({error})"),
     };
     message![what; "export it again"]
 }
 
-/// What the coordinates are of, and a note where that may be read in two ways.
+/// The reference system of the coordinates, and a note if their order is ambiguous.
 fn coordinates_of(head: &CityDocument<'_>) -> (Coordinates, Option<Message>) {
     let said = head.metadata.as_ref().and_then(|metadata| metadata.reference_system.as_deref());
     let Some(system) = said.and_then(named_system) else {
@@ -111,13 +111,13 @@ fn coordinates_of(head: &CityDocument<'_>) -> (Coordinates, Option<Message>) {
         message![format!(
             "has {} as its reference system, whose official order is the northing first, and is read with the easting first, as CityJSON is written",
             system.crs
-        ); "see that it lies where it should"]
+        ); "check that it lies where it should"]
     });
     (Coordinates::Map(system.crs), note)
 }
 
 impl VertexTransform {
-    /// A vertex in the coordinates of the reference system.
+    /// Converts a vertex to the coordinates of the reference system.
     fn apply(&self, vertex: [f64; 3]) -> glam::DVec3 {
         glam::DVec3::from(vertex) * glam::DVec3::from(self.scale) + glam::DVec3::from(self.translate)
     }

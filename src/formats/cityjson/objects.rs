@@ -1,4 +1,4 @@
-//! Which objects of a document are taken, and with which of their geometries.
+//! Selects the objects of a document and their geometries.
 
 use super::document::{CityDocument, CityObject, VertexTransform};
 use super::surfaces::{CityShape, NO_SURFACES, Templates};
@@ -21,7 +21,7 @@ pub(super) fn add(
     for ((id, object), shapes) in objects.iter().zip(&shapes) {
         let Some(best) = best_of(shapes) else { continue };
         if replaced.get(id.as_ref()).is_some_and(|parts| *parts >= best) {
-            builder.tally.add(kind_of(object), "parts of it stand instead");
+            builder.tally.add(kind_of(object), "its parts are used instead");
             continue;
         }
         let others = object.parents.iter().flatten().cloned();
@@ -33,7 +33,7 @@ pub(super) fn add(
             if shape.rank == best {
                 shape.build(builder)?;
             } else {
-                builder.tally.add("geometries", "another level of detail of the object stands there");
+                builder.tally.add("geometries", "another level of detail of the object is used");
             }
         }
         builder.close();
@@ -41,12 +41,12 @@ pub(super) fn add(
     Ok(())
 }
 
-/// The type of an object; a plus marks those of extensions.
+/// The type of an object; extensions begin theirs with a plus sign.
 fn kind_of<'a>(object: &'a CityObject<'_>) -> &'a str {
     object.kind.trim_start_matches('+')
 }
 
-/// The shapes of an object that may stand there.
+/// The shapes of an object that may be used.
 fn shapes<'a>(
     object: &'a CityObject<'_>,
     document: &'a CityDocument<'_>,
@@ -75,12 +75,12 @@ fn shapes<'a>(
     shapes
 }
 
-/// Of several, the highest that is solid, otherwise the highest with surfaces.
+/// The highest rank of several: solids come first, then surfaces.
 fn best_of(shapes: &[CityShape<'_>]) -> Option<Rank> {
     shapes.iter().map(|shape| shape.rank).reduce(|best, next| if next > best { next } else { best })
 }
 
-/// How good the parts of objects are that have some: an object that is no better does not stand beside its parts.
+/// The rank of the parts of each object that has some: an object that is no better is not used beside its parts.
 fn replaced<'a>(
     objects: &'a [(Cow<'_, str>, CityObject<'_>)],
     shapes: &[Vec<CityShape<'_>>],

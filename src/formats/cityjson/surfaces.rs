@@ -1,11 +1,11 @@
-//! The boundaries of a geometry → faces.
+//! Turns the boundaries of a geometry into faces.
 
 use super::document::{Boundaries, CityDocument, CityGeometry, SurfaceNumbers, VertexTransform};
 use crate::formats::ModelFault;
 use crate::formats::city::{CityBuilder, Rank};
 use glam::{DMat4, DVec3};
 
-/// The shapes that instances are of, once for all lines of a sequence.
+/// The shapes that instances refer to, shared by all lines of a sequence.
 #[derive(Clone, Copy)]
 pub(super) struct Templates<'a> {
     shapes: &'a [CityGeometry],
@@ -13,7 +13,7 @@ pub(super) struct Templates<'a> {
 }
 
 impl<'a> Templates<'a> {
-    /// Those of the first document.
+    /// Reads them from the first document.
     pub(super) fn of(document: &'a CityDocument<'_>) -> Self {
         let templates = document.templates.as_ref();
         Self {
@@ -23,16 +23,16 @@ impl<'a> Templates<'a> {
     }
 }
 
-/// A geometry with surfaces, and where its vertices are.
+/// A geometry with surfaces, with the source of its vertices.
 pub(super) struct CityShape<'a> {
     geometry: &'a CityGeometry,
     vertices: &'a [[f64; 3]],
     transform: VertexTransform,
-    /// Of an instance.
+    /// The transform of an instance.
     stands: Option<DMat4>,
     /// Its rank among the object's geometries.
     pub rank: Rank,
-    /// How many lists are around a face.
+    /// The number of lists around a face.
     depth: usize,
 }
 
@@ -51,8 +51,9 @@ impl<'a> CityShape<'a> {
             "GeometryInstance" => {
                 let shape = geometry.template.and_then(|template| templates.shapes.get(template));
                 let shape = shape.ok_or("the template is not in the file")?;
-                let Boundaries::Ring(at) = &geometry.boundaries else { return Err("they stand nowhere") };
-                let at = at.first().and_then(|&at| document.vertices.get(at as usize)).ok_or("they stand nowhere")?;
+                let Boundaries::Ring(at) = &geometry.boundaries else { return Err("they have no position") };
+                let at =
+                    at.first().and_then(|&at| document.vertices.get(at as usize)).ok_or("they have no position")?;
                 let rows =
                     geometry.matrix.map_or(DMat4::IDENTITY, |matrix| DMat4::from_cols_array(&matrix).transpose());
                 let stands = DMat4::from_translation(transform.apply(*at)) * rows;
@@ -71,14 +72,14 @@ impl<'a> CityShape<'a> {
         Ok(Self { geometry: shape, vertices, transform: own, stands, rank: Rank { is_solid: depth > 1, lod }, depth })
     }
 
-    /// Its faces, given to the builder.
+    /// Gives its faces to the builder.
     pub(super) fn build(&self, builder: &mut CityBuilder) -> Result<(), ModelFault> {
         let numbers = self.geometry.semantics.as_ref().map_or(&SurfaceNumbers::None, |semantics| &semantics.values);
         let mut face = FaceOfRings { points: Vec::new(), ends: Vec::new() };
         self.walk(&self.geometry.boundaries, self.depth, numbers, &mut face, builder)
     }
 
-    /// At depth 0 it is a face.
+    /// Descends through nested lists; at depth 0 there is a face.
     fn walk(
         &self,
         boundaries: &Boundaries,
@@ -88,7 +89,7 @@ impl<'a> CityShape<'a> {
         builder: &mut CityBuilder,
     ) -> Result<(), ModelFault> {
         let Boundaries::Lists(lists) = boundaries else {
-            builder.tally.add("geometries", "boundaries nested as those of another type");
+            builder.tally.add("geometries", "boundaries nested as those of a different type");
             return Ok(());
         };
         if depth == 0 {
@@ -97,7 +98,7 @@ impl<'a> CityShape<'a> {
         for (at, inner) in lists.iter().enumerate() {
             let inner_numbers = match numbers {
                 SurfaceNumbers::Lists(lists) => lists.get(at).unwrap_or(&SurfaceNumbers::None),
-                // one number for all that is within, which some exporters write
+                // one number for everything within, as some exporters write
                 one => one,
             };
             self.walk(inner, depth - 1, inner_numbers, face, builder)?;
@@ -116,7 +117,7 @@ impl<'a> CityShape<'a> {
         face.ends.clear();
         for ring in rings {
             let Boundaries::Ring(ring) = ring else {
-                builder.tally.add("faces", "rings that are no lists of vertices");
+                builder.tally.add("faces", "rings that are not lists of vertices");
                 return Ok(());
             };
             for &vertex in ring {
@@ -132,7 +133,7 @@ impl<'a> CityShape<'a> {
         builder.face(self.surface(number), &face.points, &face.ends, is_mirrored)
     }
 
-    /// The kind of surface, empty where none is said.
+    /// The kind of surface; empty if there is none.
     fn surface(&self, number: &SurfaceNumbers) -> &str {
         let SurfaceNumbers::Number(number) = number else { return "" };
         let surfaces = self.geometry.semantics.as_ref().map(|semantics| semantics.surfaces.as_slice());
@@ -145,7 +146,7 @@ impl<'a> CityShape<'a> {
     }
 }
 
-/// The rings of one face; its memory is taken once.
+/// The rings of one face, with buffers that are reused.
 struct FaceOfRings {
     points: Vec<DVec3>,
     ends: Vec<usize>,

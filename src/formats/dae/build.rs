@@ -1,4 +1,4 @@
-//! Nodes with their geometries → parts.
+//! Makes parts of nodes and their geometries.
 
 use super::document::{DaeDocument, DaeGeometry, DaeMaterial, DaeNode, DaeUp, GeometryInstance};
 use super::node::MOST_DEPTH;
@@ -10,10 +10,10 @@ use crate::message::{Message, message, setting};
 use glam::{DAffine3, DMat3, DVec3};
 use std::collections::BTreeMap;
 
-/// The most nodes that may stand there, each counted as often as it stands.
+/// The most placed nodes, counted once for each place.
 const MOST_NODES: u64 = 4_000_000;
 
-/// The most names of nodes above a part that it can be called by.
+/// The most names of enclosing nodes that select a part.
 const MOST_NAMES: usize = 16;
 
 pub(super) fn model_of(mut document: DaeDocument) -> Result<Model, Message> {
@@ -23,7 +23,7 @@ pub(super) fn model_of(mut document: DaeDocument) -> Result<Model, Message> {
     };
     let mut model = Model { unit_m: document.unit_m, up_is_said: document.up.is_some(), ..Model::default() };
     if let Some(unit) = &document.odd_unit {
-        let what = format!("says {unit}, which is no length in metres, so that its numbers are taken for metres");
+        let what = format!("says {unit}, which is not a length in metres, so its numbers are taken as metres");
         model.notes.push(
             message![what; "write ", setting("[[model]]", "scale", "`scale` under [[model]]"), " if they are not"],
         );
@@ -33,7 +33,7 @@ pub(super) fn model_of(mut document: DaeDocument) -> Result<Model, Message> {
             model.up = Up::Z;
             DAffine3::IDENTITY
         }
-        // its right hand is −y then, and y up has x there
+        // with x up, the right-hand side is −y
         Some(DaeUp::X) => DAffine3::from_mat3(DMat3::from_cols(DVec3::Y, DVec3::NEG_X, DVec3::Z)),
         Some(DaeUp::Y) | None => DAffine3::IDENTITY,
     };
@@ -48,7 +48,7 @@ pub(super) fn model_of(mut document: DaeDocument) -> Result<Model, Message> {
     model.notes.extend(document.cutter.crossing_note());
     model.left_out = left_out.into_left_out();
     if let Some(read) = scene.and_then(|scene| document.scenes.get(scene)).filter(|_| document.scenes.len() > 1) {
-        let what = format!("has {} scenes, and `{}` alone is read", document.scenes.len(), read.name);
+        let what = format!("has {} scenes, of which only `{}` is read", document.scenes.len(), read.name);
         model.notes.push(message![what; "export the others on their own"]);
     }
     Ok(model)
@@ -60,7 +60,7 @@ struct NodePlacer<'a> {
     parts: Vec<Part>,
     see_through: BTreeMap<String, Vec<usize>>,
     picker: VertexPicker,
-    /// The names of the nodes from the root to where the placer is.
+    /// The names of the nodes from the root to the current one.
     path: Vec<&'a str>,
     /// How many of those are placed in a way that is not read.
     astray: usize,
@@ -68,7 +68,7 @@ struct NodePlacer<'a> {
     triangles: u64,
 }
 
-/// A material of an instance, and the triangles of a geometry that have it.
+/// The triangles of a geometry with one material of an instance.
 struct MaterialSurface<'a> {
     material: Option<&'a DaeMaterial>,
     name: &'a str,
@@ -91,20 +91,20 @@ impl<'a> NodePlacer<'a> {
         }
     }
 
-    /// Places a node with all below it, and with the nodes that it is to stand for.
+    /// Places a node with everything below it, and the nodes that it instantiates.
     fn place(&mut self, node: usize, model_from_parent: DAffine3, depth: usize) -> Result<(), Message> {
         self.nodes += 1;
         if depth > 2 * MOST_DEPTH || self.nodes > MOST_NODES {
             return Err(message![
-                "has nodes that hold themselves, or more than can be placed"; "mend the model and export it again"
+                "has nodes that contain themselves, or more nodes than can be placed"; "repair the model and export it again"
             ]);
         }
         let document = self.document;
         let Some(node) = document.nodes.get(node) else { return Ok(()) };
         let model_from_node = model_from_parent * node.parent_from_node;
         if !model_from_node.is_finite() {
-            let what = format!("has the node `{}` beyond all numbers", node.name);
-            return Err(message![what; "mend the model and export it again"]);
+            let what = format!("has the node `{}` at coordinates that are too large", node.name);
+            return Err(message![what; "repair the model and export it again"]);
         }
         self.path.push(&node.name);
         self.astray += usize::from(node.is_astray);
@@ -131,7 +131,7 @@ impl<'a> NodePlacer<'a> {
                 None => self.left_out.add("instances of geometries", "the geometry is not in the file"),
             }
         }
-        // the materials in the order in which they come, each once
+        // each material once, in order of appearance
         let mut names: Vec<&str> = Vec::new();
         for surface in &surfaces {
             if !names.contains(&surface.name) {
@@ -185,7 +185,7 @@ impl<'a> NodePlacer<'a> {
             }
             let mut triangles = surface.triangles.to_vec();
             let picked = self.picker.pick(&surface.geometry.positions, &mut triangles);
-            // fits: no part has more than three vertices a triangle
+            // cannot overflow: a part has at most three vertices per triangle
             let first = part.positions.len() as u32;
             part.positions.extend(picked.iter().map(|&point| model_from_node.transform_point3(point)));
             let turned = triangles.iter().map(|&[a, b, c]| if mirrors { [a, c, b] } else { [a, b, c] });
@@ -202,8 +202,8 @@ impl<'a> NodePlacer<'a> {
             return Err(message![what; "export it again, with matrices"]);
         }
         if !part.positions.iter().all(|point| point.is_finite()) {
-            let what = format!("has the node `{node}` beyond all numbers");
-            return Err(message![what; "mend the model and export it again"]);
+            let what = format!("has the node `{node}` at coordinates that are too large");
+            return Err(message![what; "repair the model and export it again"]);
         }
         for alias in aliases.into_iter().chain([material]) {
             if !part.aliases.iter().any(|known| known == alias) {

@@ -1,4 +1,4 @@
-//! The contents of a Collada file, by their ids.
+//! The contents of a Collada file by their ids.
 
 use super::effect::DaeEffect;
 use crate::formats::face_cutter::FaceCutter;
@@ -6,7 +6,7 @@ use crate::formats::left_out::LeftOutTally;
 use glam::{DAffine3, DVec3};
 use rustc_hash::FxHashMap;
 
-/// Which axis is up.
+/// The up axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum DaeUp {
     X,
@@ -14,7 +14,6 @@ pub(super) enum DaeUp {
     Z,
 }
 
-/// A material's name and effect.
 pub(super) struct DaeMaterial {
     pub name: String,
     pub effect: Option<String>,
@@ -28,16 +27,15 @@ pub(super) struct DaeScene {
     pub roots: Vec<usize>,
 }
 
-/// A geometry: triangles by their material's symbol.
+/// A geometry: triangles by the symbol of their material.
 #[derive(Default)]
 pub(super) struct DaeGeometry {
     pub name: String,
     pub positions: Vec<DVec3>,
-    /// Every vertex is among the positions.
+    /// Every vertex index is within the positions.
     pub surfaces: Vec<(Option<String>, Vec<[u32; 3]>)>,
 }
 
-/// A node.
 pub(super) struct DaeNode {
     /// Its name, otherwise its id; empty if it has neither.
     pub name: String,
@@ -46,21 +44,21 @@ pub(super) struct DaeNode {
     /// The ids of nodes that are instantiated here.
     pub instances: Vec<String>,
     pub geometries: Vec<GeometryInstance>,
-    /// Whether it is placed in a way that is not read, as cameras are.
+    /// Whether it is placed in a way that is not read, such as a camera's.
     pub is_astray: bool,
 }
 
-/// A geometry that stands at a node.
+/// A geometry instantiated at a node.
 pub(super) struct GeometryInstance {
     pub geometry: String,
-    /// The geometry's symbols for materials, and the materials' ids.
+    /// The geometry's symbols for materials, with the materials' ids.
     pub materials: Vec<(String, String)>,
 }
 
-/// What a file says.
+/// The contents of a file.
 pub(super) struct DaeDocument {
     pub unit_m: Option<f64>,
-    /// What the file says of its unit, where that is no length.
+    /// The file's statement of its unit, if that is not a length.
     pub odd_unit: Option<String>,
     pub up: Option<DaeUp>,
     pub geometries: FxHashMap<String, DaeGeometry>,
@@ -74,12 +72,12 @@ pub(super) struct DaeDocument {
     pub effects: FxHashMap<String, DaeEffect>,
     pub left_out: LeftOutTally,
     pub cutter: FaceCutter,
-    /// Triangles of all geometries, each once.
+    /// The triangles of all geometries, each geometry counted once.
     pub triangles: u64,
 }
 
 impl DaeDocument {
-    /// Whether light passes a material.
+    /// Whether a material is see-through.
     pub(super) fn is_see_through(&self, material: &DaeMaterial) -> bool {
         let effect = material.effect.as_ref().and_then(|effect| self.effects.get(effect));
         effect.is_some_and(DaeEffect::is_see_through)

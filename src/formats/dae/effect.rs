@@ -4,10 +4,10 @@ use super::xml::{DaeXml, attribute};
 use crate::message::Message;
 use quick_xml::events::BytesStart;
 
-/// What an effect says of its opacity (Collada 1.5, "Determining Transparency").
+/// An effect's opacity (Collada 1.5, "Determining Transparency").
 #[derive(Default)]
 pub(super) struct DaeEffect {
-    /// `A_ONE`, `RGB_ZERO` and so on; `A_ONE` where it says none.
+    /// `A_ONE`, `RGB_ZERO` and so on; `A_ONE` by default.
     opaque: String,
     /// Red, green, blue, alpha.
     colour: Option<[f64; 4]>,
@@ -15,7 +15,7 @@ pub(super) struct DaeEffect {
     is_cut_out: bool,
 }
 
-/// Reads the effect that was given last.
+/// Reads the current element as an effect.
 pub(super) fn read(xml: &mut DaeXml) -> Result<DaeEffect, Message> {
     let mut effect = DaeEffect::default();
     xml.each("profile_COMMON", |xml, _| {
@@ -59,7 +59,7 @@ impl DaeEffect {
     pub(super) fn is_see_through(&self) -> bool {
         let [red, green, blue, alpha] = self.colour.unwrap_or([1.0; 4]);
         let transparency = self.transparency.unwrap_or(1.0);
-        // luminance, as Collada has it
+        // luminance with Collada's weights
         let grey = 0.212671 * red + 0.71516 * green + 0.072169 * blue;
         let opacity = match self.opaque.as_str() {
             "RGB_ZERO" => 1.0 - grey * transparency,
@@ -67,7 +67,7 @@ impl DaeEffect {
             "A_ZERO" => 1.0 - alpha * transparency,
             _ => alpha * transparency,
         };
-        // many a program writes the opposite: nobody models what cannot be seen at all
+        // many programs write the opposite, and nobody models what is invisible
         self.is_cut_out || opacity > 0.0 && opacity < 0.999
     }
 }

@@ -1,4 +1,4 @@
-//! The libraries of a Collada file, its asset and its scenes → the document.
+//! Reads the libraries, the asset and the scenes of a Collada file.
 
 use super::document::{DaeDocument, DaeGeometry, DaeMaterial, DaeNode, DaeScene, DaeUp};
 use super::effect;
@@ -29,7 +29,7 @@ impl DaeDocument {
         let mut xml = DaeXml::new(source);
         let root = xml.root()?;
         if root.local_name().as_ref() != "COLLADA" {
-            let what = format!("is XML, and not Collada: its first element is `{}`", label(root.local_name().as_ref()));
+            let what = format!("is XML, but not Collada: its first element is `{}`", label(root.local_name().as_ref()));
             return Err(message![what; "export it again, as Collada (.dae)"]);
         }
         xml.children(|xml, name, _| document.library(xml, name))?;

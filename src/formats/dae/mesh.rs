@@ -1,4 +1,4 @@
-//! Meshes: sources of positions, and the triangles, polygons, strips and fans that use them.
+//! Reads meshes: sources of positions, and the triangles, polygons, strips and fans that use them.
 
 use super::document::{DaeDocument, DaeGeometry};
 use super::xml::{DaeXml, attribute, local_id};
@@ -10,7 +10,7 @@ use glam::DVec3;
 use quick_xml::events::BytesStart;
 use rustc_hash::FxHashMap;
 
-/// Numbers, and how to take points from them.
+/// Numbers, and how points are stored in them.
 #[derive(Default)]
 struct DaeSource {
     numbers: Vec<f64>,
@@ -18,11 +18,11 @@ struct DaeSource {
     stride: usize,
 }
 
-/// What is read of a mesh until it ends.
+/// A mesh that is being read.
 #[derive(Default)]
 struct DaeMesh {
     sources: FxHashMap<String, DaeSource>,
-    /// The source of the vertices' positions.
+    /// The id of the source of the positions.
     positions: Option<String>,
     primitives: Vec<DaePrimitive>,
 }
@@ -32,18 +32,18 @@ struct DaeMesh {
 struct DaePrimitive {
     kind: String,
     material: Option<String>,
-    /// How many numbers a corner has, and which of them is its vertex.
+    /// The number of indices per corner, and which of them is the vertex.
     stride: usize,
     vertex: usize,
     vertices: Vec<u32>,
-    /// Where rings end; of triangles none.
+    /// The ends of rings; empty for triangles.
     ends: Vec<usize>,
-    /// Which rings are holes in the one before.
+    /// For each ring, whether it is a hole in the one before.
     holes: Vec<bool>,
 }
 
 impl DaeGeometry {
-    /// Reads the geometry that was given last.
+    /// Reads the current element as a geometry.
     pub(super) fn read(xml: &mut DaeXml, element: &BytesStart, document: &mut DaeDocument) -> Result<(), Message> {
         let id = attribute(element, "id").unwrap_or_default();
         let name = label(&attribute(element, "name").unwrap_or_default());
@@ -55,7 +55,7 @@ impl DaeGeometry {
                 geometry.fill(mesh, document)
             }
             "convex_mesh" | "spline" | "brep" => {
-                document.left_out.add(&format!("geometries of the kind {name}"), "meshes are read alone");
+                document.left_out.add(&format!("geometries of the kind {name}"), "only meshes are read");
                 xml.skip()
             }
             _ => xml.skip(),
@@ -64,7 +64,7 @@ impl DaeGeometry {
         Ok(())
     }
 
-    /// Cuts what the mesh has into triangles.
+    /// Cuts a mesh into triangles.
     fn fill(&mut self, mesh: DaeMesh, document: &mut DaeDocument) -> Result<(), Message> {
         let source = mesh.positions.as_ref().and_then(|id| mesh.sources.get(id));
         if let Some(source) = source {
@@ -73,7 +73,7 @@ impl DaeGeometry {
         for primitive in mesh.primitives {
             let count = self.positions.len();
             if let Some(vertex) = primitive.vertices.iter().find(|&&vertex| vertex as usize >= count) {
-                let what = format!("has a face of `{}` at vertex {vertex}, and there are {count}", self.name);
+                let what = format!("has a face of `{}` with vertex {vertex}, but there are only {count}", self.name);
                 return Err(message![what; "the file is damaged: export it again"]);
             }
             let triangles = self.cut(&primitive, document);
@@ -116,7 +116,7 @@ impl DaeGeometry {
 }
 
 impl DaePrimitive {
-    /// Each ring with the holes in it, and where each of them ends.
+    /// Each ring with its holes, and the end of each.
     fn rings(&self) -> impl Iterator<Item = (&[u32], Vec<usize>)> {
         let mut at = 0_usize;
         std::iter::from_fn(move || {
@@ -133,7 +133,7 @@ impl DaePrimitive {
         })
     }
 
-    /// Adds the corners of the element that was given last, as one ring.
+    /// Adds the corners in the current element as one ring.
     fn ring(&mut self, xml: &mut DaeXml, is_hole: bool) -> Result<(), Message> {
         self.corners(xml)?;
         self.ends.push(self.vertices.len());
@@ -217,14 +217,14 @@ impl DaePrimitive {
         Ok(())
     }
 
-    /// Parts the corners of a list of polygons by how many each has.
+    /// Splits the corners of a list of polygons by the number of corners of each.
     fn count_out(&mut self, counts: &[u32]) -> Result<(), Message> {
         let mut end = 0_usize;
         for &count in counts {
             end = end.saturating_add(count as usize);
             if end > self.vertices.len() {
                 return Err(message![
-                    "has a list of polygons with fewer corners than it counts"; "the file is damaged: export it again"
+                    "has a list of polygons with fewer corners than it states"; "the file is damaged: export it again"
                 ]);
             }
             self.ends.push(end);

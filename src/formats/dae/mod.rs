@@ -1,7 +1,7 @@
-//! Collada 1.4 and 1.5 → parts: one per node and material for each place where the node stands.
+//! Reads Collada 1.4 and 1.5: one part per node and material for each place of the node.
 //!
-//! The XML is read once, from its beginning to its end, and no entity in it is expanded. `zipped` finds it in an archive,
-//! `xml` reads elements, `library` and its `mesh`, `node` and `effect` what they say, `build` places the nodes.
+//! The XML is read once, from beginning to end, without expanding entities. `zipped` finds it in an archive, `xml`
+//! reads elements, `library` with its `mesh`, `node` and `effect` interprets them, and `build` places the nodes.
 
 mod build;
 mod document;

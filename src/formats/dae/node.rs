@@ -1,4 +1,4 @@
-//! Nodes: their transforms, and what is below them.
+//! Reads nodes: their transforms, and what is below them.
 
 use super::document::{DaeDocument, DaeNode, GeometryInstance};
 use super::xml::{DaeXml, attribute, local_id};
@@ -7,11 +7,11 @@ use crate::message::{Message, message};
 use glam::{DAffine3, DMat3, DVec3};
 use quick_xml::events::BytesStart;
 
-/// How deep nodes may lie in nodes.
+/// How deeply nodes may be nested.
 pub(super) const MOST_DEPTH: usize = 100;
 
 impl DaeNode {
-    /// Reads the node that was given last, with all below it; gives its number.
+    /// Reads the current element as a node, with everything below it. Returns its index.
     pub(super) fn read(
         xml: &mut DaeXml,
         element: &BytesStart,
@@ -19,7 +19,7 @@ impl DaeNode {
         depth: usize,
     ) -> Result<usize, Message> {
         if depth > MOST_DEPTH {
-            let what = format!("has nodes in nodes deeper than {MOST_DEPTH}");
+            let what = format!("has nodes nested more than {MOST_DEPTH} deep");
             return Err(message![what; "dissolve some of its groups, and export it again"]);
         }
         let id = attribute(element, "id");
@@ -47,7 +47,7 @@ impl DaeNode {
         Ok(number)
     }
 
-    /// Reads what moves the node, or stands at it.
+    /// Reads a transform of the node, or something instantiated at it.
     fn element(
         &mut self,
         xml: &mut DaeXml,
@@ -69,7 +69,7 @@ impl DaeNode {
             "instance_node" => {
                 match local_id(element, "url") {
                     Some(id) => self.instances.push(id),
-                    None => document.left_out.add("nodes of other files", "nothing outside of the file is followed"),
+                    None => document.left_out.add("nodes of other files", "other files are not read"),
                 }
                 xml.skip()
             }
@@ -80,7 +80,7 @@ impl DaeNode {
                     Ok(())
                 }
                 None => {
-                    document.left_out.add("geometries of other files", "nothing outside of the file is followed");
+                    document.left_out.add("geometries of other files", "other files are not read");
                     xml.skip()
                 }
             },
@@ -93,7 +93,7 @@ impl DaeNode {
     }
 }
 
-/// The materials that are bound at the instance that was given last.
+/// The materials bound in the current instance.
 fn materials(xml: &mut DaeXml) -> Result<Vec<(String, String)>, Message> {
     let mut materials = Vec::new();
     xml.each("bind_material", |xml, _| {
@@ -107,7 +107,7 @@ fn materials(xml: &mut DaeXml) -> Result<Vec<(String, String)>, Message> {
     Ok(materials)
 }
 
-/// A step of a node's transform; none where its numbers are not as many as it has.
+/// One step of a node's transform; `None` if it has the wrong number of values.
 fn transform(kind: &str, numbers: &[f64]) -> Option<DAffine3> {
     Some(match (kind, numbers) {
         ("matrix", &[a, b, c, x, d, e, f, y, g, h, i, z, _, _, _, _]) => {

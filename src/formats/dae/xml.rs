@@ -1,4 +1,4 @@
-//! Elements of an XML text, one after another. A function that is given an element reads to the element's end.
+//! Reads the elements of an XML text one after another. A function that gets an element reads up to its end.
 
 use crate::formats::left_out::label;
 use crate::formats::source::{as_ascii, number, text, words};
@@ -7,12 +7,12 @@ use quick_xml::XmlVersion;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
 
-/// The text of a document, in whatever letters it is written.
+/// The text of a document, in any encoding.
 pub(super) fn text_of(bytes: Vec<u8>) -> String {
     String::from_utf8(as_ascii(bytes)).unwrap_or_else(|error| text(error.as_bytes()))
 }
 
-/// The text, from where it was read to.
+/// The text, and the position up to which it is read.
 pub(super) struct DaeXml<'a> {
     reader: Reader<&'a [u8]>,
 }
@@ -21,7 +21,7 @@ impl<'a> DaeXml<'a> {
     pub(super) fn new(text: &'a str) -> Self {
         let mut reader = Reader::from_str(text);
         let config = reader.config_mut();
-        // an element without content is one that begins and ends
+        // an empty element gives a start and an end
         config.expand_empty_elements = true;
         config.allow_dangling_amp = true;
         Self { reader }
@@ -47,7 +47,7 @@ impl<'a> DaeXml<'a> {
         }
     }
 
-    /// Gives all elements within the one that was given last, each of which is to be read to its end.
+    /// Calls the function for all elements within the current one; it must read each to its end.
     pub(super) fn children(
         &mut self,
         mut each: impl FnMut(&mut Self, &str, &BytesStart<'a>) -> Result<(), Message>,
@@ -64,7 +64,7 @@ impl<'a> DaeXml<'a> {
         }
     }
 
-    /// Gives the elements of one name within the one that was given last; the others are passed over.
+    /// Calls the function for the elements of one name within the current one, and skips the others.
     pub(super) fn each(
         &mut self,
         wanted: &str,
@@ -73,7 +73,7 @@ impl<'a> DaeXml<'a> {
         self.children(|xml, name, element| if name == wanted { each(xml, element) } else { xml.skip() })
     }
 
-    /// Passes over the element that was given last.
+    /// Skips the current element.
     pub(super) fn skip(&mut self) -> Result<(), Message> {
         let mut depth = 0_usize;
         loop {
@@ -86,7 +86,7 @@ impl<'a> DaeXml<'a> {
         }
     }
 
-    /// The texts of the element that was given last, without those of elements in it.
+    /// The text of the current element, without that of elements in it.
     fn texts(&mut self, mut each: impl FnMut(&str) -> Result<(), Message>) -> Result<(), Message> {
         loop {
             match self.event()? {
@@ -99,7 +99,7 @@ impl<'a> DaeXml<'a> {
         }
     }
 
-    /// The first word of the element that was given last; empty where it has none.
+    /// The first word of the current element; empty if it has none.
     pub(super) fn word(&mut self) -> Result<String, Message> {
         let mut word = String::new();
         self.texts(|text| {
@@ -111,7 +111,7 @@ impl<'a> DaeXml<'a> {
         Ok(word)
     }
 
-    /// The numbers of the element that was given last.
+    /// The numbers in the current element.
     pub(super) fn numbers(&mut self) -> Result<Vec<f64>, Message> {
         let mut numbers = Vec::new();
         self.texts(|text| {
@@ -123,7 +123,7 @@ impl<'a> DaeXml<'a> {
         Ok(numbers)
     }
 
-    /// Gives the whole numbers of the element that was given last, each with how many stand before it.
+    /// Calls the function with each whole number in the current element and its index.
     pub(super) fn wholes(&mut self, mut each: impl FnMut(usize, u32)) -> Result<(), Message> {
         let mut before = 0;
         self.texts(|text| {
@@ -138,19 +138,19 @@ impl<'a> DaeXml<'a> {
 }
 
 fn no_number(word: &[u8]) -> Message {
-    let what = format!("has `{}` where a number is to stand", label(&String::from_utf8_lossy(word)));
+    let what = format!("has `{}` where a number is expected", label(&String::from_utf8_lossy(word)));
     message![what; "the file is damaged: export it again"]
 }
 
-/// An attribute; none where the element has none, or an empty one.
+/// An attribute; `None` if it is missing or empty.
 pub(super) fn attribute(element: &BytesStart, name: &str) -> Option<String> {
     let attribute = element.try_get_attribute(name).ok()??;
-    // entities of the file's own stay as they are written
+    // entities that the file defines stay as they are written
     let plain = attribute.normalized_value(XmlVersion::Implicit1_0).unwrap_or_else(|_| attribute.value.clone());
     Some(plain.into_owned()).filter(|value| !value.trim().is_empty())
 }
 
-/// What an address leads to within the file, `#id`; none where it leads out of it.
+/// The id in a reference `#id` within the file; `None` for references to other files.
 pub(super) fn local_id(element: &BytesStart, name: &str) -> Option<String> {
     attribute(element, name)?.strip_prefix('#').map(str::to_owned)
 }

@@ -1,4 +1,4 @@
-//! Zipped Collada: which document of an archive stands there.
+//! Zipped Collada: finds the document in an archive.
 
 use super::xml::{DaeXml, text_of};
 use crate::formats::ModelFault;
@@ -6,23 +6,23 @@ use crate::formats::archive::ModelArchive;
 use crate::formats::whole::MOST_BYTES;
 use crate::message::{Message, few, message};
 
-/// How the names of documents end.
+/// The ending of documents.
 pub(super) const ENDING: &str = ".dae";
 
-/// The file in an archive that names the document to begin with.
+/// The file in an archive that names the main document.
 const MANIFEST: &str = "manifest.xml";
 
-/// The longest manifest that is believed.
+/// The longest manifest that is read.
 const MOST_MANIFEST_BYTES: u64 = 1 << 20;
 
 /// A document of an archive.
 pub(super) struct ZippedDocument {
     pub bytes: Vec<u8>,
-    /// That the archive has others.
+    /// A note if the archive contains other documents.
     pub note: Option<Message>,
 }
 
-/// The document that the archive's manifest names, else the first one.
+/// The document named by the archive's manifest, otherwise the first one.
 pub(super) fn document(bytes: &[u8]) -> Result<ZippedDocument, ModelFault> {
     let archive = ModelArchive::open(bytes, ENDING)?;
     let root = archive.unpacked(MANIFEST, MOST_MANIFEST_BYTES)?.and_then(|manifest| root_of(&text_of(manifest)));
@@ -39,8 +39,8 @@ pub(super) fn document(bytes: &[u8]) -> Result<ZippedDocument, ModelFault> {
     Ok(ZippedDocument { bytes: unpacked.unwrap_or_default(), note })
 }
 
-/// The document that a manifest names (Collada 1.5, "The Zipped Archive"); none where it names a part of one, or the manifest
-/// is damaged.
+/// The document that a manifest names (Collada 1.5, "The Zipped Archive"); `None` if it names a part of one, or is
+/// damaged.
 fn root_of(manifest: &str) -> Option<String> {
     let mut xml = DaeXml::new(manifest);
     let root = xml.root().ok().filter(|root| root.local_name().as_ref() == "dae_root")?;

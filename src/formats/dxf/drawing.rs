@@ -1,11 +1,10 @@
-//! The contents of a DXF file: its layers, its blocks, and what stands in the model space.
+//! The contents of a DXF file: its layers, its blocks, and the model space.
 
 use crate::formats::face_cutter::FaceCutter;
 use crate::formats::left_out::LeftOutTally;
 use glam::{DAffine3, DVec3};
 use rustc_hash::FxHashMap;
 
-/// A layer.
 #[derive(Clone, Debug, Default)]
 pub(super) struct DxfLayer {
     pub name: String,
@@ -15,10 +14,10 @@ pub(super) struct DxfLayer {
     pub left_out: u64,
 }
 
-/// Layer `0`, whose entities have the layer of the insert that places their block.
+/// Layer `0`: its entities take the layer of the insert that places their block.
 pub(super) const LAYER_0: u32 = 0;
 
-/// Triangles of one layer, and of how many entities.
+/// The triangles of one layer, and the number of entities they come from.
 #[derive(Default)]
 pub(super) struct LayerTriangles {
     pub layer: u32,
@@ -27,7 +26,7 @@ pub(super) struct LayerTriangles {
     pub entities: u64,
 }
 
-/// A block that is placed, once or in rows and columns.
+/// A placed block: once, or in rows and columns.
 pub(super) struct DxfInsert {
     pub layer: u32,
     pub block: String,
@@ -36,12 +35,12 @@ pub(super) struct DxfInsert {
     pub world_from_block: DAffine3,
     pub columns: u64,
     pub rows: u64,
-    /// The step from one column to the next, in the coordinates in which the insert stands.
+    /// The step from one column to the next, in the coordinates around the insert.
     pub column_step: DVec3,
     pub row_step: DVec3,
 }
 
-/// What a block holds, or the model space.
+/// The contents of a block or of the model space.
 #[derive(Default)]
 pub(super) struct DxfBlock {
     pub base: DVec3,
@@ -51,7 +50,7 @@ pub(super) struct DxfBlock {
 }
 
 impl DxfBlock {
-    /// Adds an entity's triangles to those of its layer.
+    /// Adds an entity's triangles to its layer.
     pub(super) fn of_layer(&mut self, layer: u32, entity: LayerTriangles) {
         let triangles = &mut self.triangles;
         let at = *self.triangles_of.entry(layer).or_insert_with(|| {
@@ -67,9 +66,9 @@ impl DxfBlock {
     }
 }
 
-/// What a file says.
+/// The contents of a file.
 pub(super) struct Drawing {
-    /// The layers by number; the first is `0`.
+    /// The layers by index; the first is `0`.
     pub layers: Vec<DxfLayer>,
     pub layer_of: FxHashMap<String, u32>,
     pub blocks: FxHashMap<String, DxfBlock>,
@@ -79,16 +78,16 @@ pub(super) struct Drawing {
     pub cutter: FaceCutter,
     /// The number of bodies whose shape is stored as ACIS.
     pub acis: u64,
-    /// The number of polylines that have a width, which is not read.
+    /// The number of polylines with a width, which is not read.
     pub wide: u64,
     /// The number of closed outlines with a thickness: walls without a lid.
     pub lidless: u64,
-    /// Triangles of all blocks, each once.
+    /// The triangles of all blocks, each block counted once.
     pub triangles: u64,
 }
 
 impl Drawing {
-    /// The number of a layer, upper and lower case alike.
+    /// The index of a layer; upper and lower case are the same.
     pub(super) fn layer(&mut self, name: &str) -> u32 {
         let key = name.to_uppercase();
         if let Some(&number) = self.layer_of.get(&key) {

@@ -1,4 +1,4 @@
-//! Entities → triangles of their layer, inserts, and what is left out.
+//! Turns entities into triangles of their layer, and into inserts, and counts what is left out.
 
 use super::drawing::{Drawing, DxfBlock, DxfInsert, LayerTriangles};
 use super::faces::EntityFaces;
@@ -12,7 +12,7 @@ use crate::formats::left_out::label;
 use crate::message::{Message, message};
 use glam::{DAffine3, DVec3};
 
-/// Bodies whose shape is stored for the ACIS kernel alone.
+/// Bodies whose shape is stored only for the ACIS kernel.
 pub(super) const ACIS: &[&[u8]] = &[
     b"3DSOLID",
     b"REGION",
@@ -27,9 +27,9 @@ pub(super) const ACIS: &[&[u8]] = &[
 ];
 
 /// Why those are left out.
-pub(super) const NO_ACIS: &str = "CAD programs alone can read the shape: in AutoCAD, make a mesh with MESHSMOOTH";
+pub(super) const NO_ACIS: &str = "only CAD programs can read the shape: in AutoCAD, make a mesh with MESHSMOOTH";
 
-/// Adds an entity to a block; gives what the next one begins with.
+/// Adds an entity to a block. Returns the first group of the next one.
 pub(super) fn add<'a>(
     drawing: &mut Drawing,
     block: &mut DxfBlock,
@@ -38,7 +38,7 @@ pub(super) fn add<'a>(
 ) -> Result<DxfGroup<'a>, Message> {
     let (fields, mut next) = DxfFields::read(groups)?;
     let mut vertices = Vec::new();
-    // what follows them belongs to them
+    // the entities that follow belong to these
     if kind == b"POLYLINE" || kind == b"INSERT" && fields.whole(66) == 1 {
         while matches!(next.bytes(), b"VERTEX" | b"ATTRIB" | b"SEQEND") {
             let (is_vertex, is_end) = (next.bytes() == b"VERTEX", next.bytes() == b"SEQEND");
@@ -54,7 +54,7 @@ pub(super) fn add<'a>(
     }
     let name = || label(&String::from_utf8_lossy(kind));
     if fields.whole(67) == 1 {
-        drawing.left_out.add("entities of the paper space", "on the sheet");
+        drawing.left_out.add("entities of the paper space", "they are on the sheet");
     } else if fields.whole(60) == 1 {
         drawing.left_out.add(&name(), "invisible");
     } else if kind == b"INSERT" {
@@ -104,7 +104,7 @@ fn surface(
     }
     if found.triangles.is_empty() {
         let why = match kind {
-            b"LINE" | b"CIRCLE" | b"ARC" | b"LWPOLYLINE" | b"POLYLINE" => "without thickness, and so without a surface",
+            b"LINE" | b"CIRCLE" | b"ARC" | b"LWPOLYLINE" | b"POLYLINE" => "they have no thickness, and so no surface",
             _ => "no area",
         };
         drawing.left_out.add(&label(&String::from_utf8_lossy(kind)), why);

@@ -22,7 +22,7 @@ impl<'a> EntityFaces<'a> {
         Self { into, cutter, left_out, ring: Vec::new() }
     }
 
-    /// Adds a face. Corners that follow each other at one point are one.
+    /// Adds a face. Consecutive corners at the same point count as one.
     pub(super) fn face(&mut self, corners: &[DVec3]) {
         self.ring.clear();
         self.ring.extend_from_slice(corners);
@@ -32,11 +32,11 @@ impl<'a> EntityFaces<'a> {
         }
         let triangles = match self.cutter.cut(&self.ring, &[self.ring.len()]) {
             Ok(cut) => cut.triangles,
-            // an entity of which nothing has an area is told as a whole
+            // an entity without any area is reported as a whole
             Err(Uncut::NoArea) => return,
             Err(uncut) => return self.left_out.add("faces", uncut.why()),
         };
-        // a file of 4 GiB has fewer corners
+        // cannot overflow: a file of 4 GiB has fewer corners
         let first = self.into.positions.len() as u32;
         self.into.triangles.extend(triangles.iter().map(|triangle| triangle.map(|corner| first + corner)));
         self.into.positions.extend_from_slice(&self.ring);

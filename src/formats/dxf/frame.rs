@@ -1,9 +1,9 @@
-//! The axes of an entity that is drawn in a plane of its own. DXF gives only the plane's normal; its "arbitrary axis
-//! algorithm" finds the axes.
+//! The axes of an entity in a plane of its own. DXF gives only the plane's normal; its "arbitrary axis algorithm"
+//! determines the axes.
 
 use glam::{DMat3, DVec3};
 
-/// World from the object's own coordinates, whose z runs along the extrusion direction.
+/// The rotation from an object's coordinates, whose z is the extrusion direction, to the world's.
 pub(super) fn world_from_object(extrusion: DVec3) -> DMat3 {
     const NEAR_VERTICAL: f64 = 1.0 / 64.0;
     let Some(z) = extrusion.try_normalize() else { return DMat3::IDENTITY };
@@ -13,7 +13,7 @@ pub(super) fn world_from_object(extrusion: DVec3) -> DMat3 {
     DMat3::from_cols(x, z.cross(x), z)
 }
 
-/// Metres a unit, by the number that `$INSUNITS` says; none where that says "unitless", or what nobody knows.
+/// The length of a unit in metres for a value of `$INSUNITS`; `None` for "unitless" and unknown values.
 pub(super) fn metres(unit: i64) -> Option<f64> {
     const FOOT: f64 = 0.3048;
     const SURVEY_FOOT: f64 = 1200.0 / 3937.0;

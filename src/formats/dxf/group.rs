@@ -1,9 +1,9 @@
-//! The bytes of a DXF file → groups: a code, and a value of the type that belongs to the code.
+//! Reads the bytes of a DXF file as groups: a code, and a value whose type depends on the code.
 
 use crate::formats::source::{TextLines, number, text};
 use crate::message::{Message, message};
 
-/// What a binary file begins with.
+/// The first bytes of a binary file.
 pub(super) const SENTINEL: &[u8] = b"AutoCAD Binary DXF\r\n\x1A\0";
 
 /// A code and its value.
@@ -21,7 +21,7 @@ enum DxfValue<'a> {
 }
 
 impl<'a> DxfGroup<'a> {
-    /// The value as a text; empty where it is stored as a number.
+    /// The value as text; empty if it is stored as a number.
     pub(super) fn bytes(&self) -> &'a [u8] {
         match self.value {
             DxfValue::Text(text) => text.trim_ascii(),
@@ -29,7 +29,7 @@ impl<'a> DxfGroup<'a> {
         }
     }
 
-    /// A name, in which letters beyond ASCII may be written `\U+00E4`.
+    /// A name, in which characters beyond ASCII may be written as `\U+00E4`.
     pub(super) fn name(&self) -> String {
         let plain = text(self.bytes());
         let mut parts = plain.split("\\U+");
@@ -44,7 +44,7 @@ impl<'a> DxfGroup<'a> {
         crate::formats::left_out::label(&name)
     }
 
-    /// The value as a finite number; none where it is none.
+    /// The value as a finite number; `None` if it is not one.
     pub(super) fn real(&self) -> Option<f64> {
         match self.value {
             DxfValue::Text(text) => number(text.trim_ascii()),
@@ -63,7 +63,7 @@ impl<'a> DxfGroup<'a> {
     }
 }
 
-/// The groups of a file, one behind the other.
+/// The groups of a file, in order.
 pub(super) enum DxfGroups<'a> {
     Written(TextLines<'a>),
     Stored { rest: &'a [u8], at: usize, has_short_codes: bool },
@@ -72,13 +72,13 @@ pub(super) enum DxfGroups<'a> {
 impl<'a> DxfGroups<'a> {
     pub(super) fn new(bytes: &'a [u8]) -> Self {
         match bytes.strip_prefix(SENTINEL) {
-            // until release 12 a code has one byte; the first group is 0 `SECTION` always
+            // until release 12 a code is one byte; the first group is always 0 `SECTION`
             Some(rest) => Self::Stored { rest, at: SENTINEL.len(), has_short_codes: rest.get(1) != Some(&0) },
             None => Self::Written(TextLines::new(bytes)),
         }
     }
 
-    /// Where the reader is, for a message.
+    /// The reader's position, for a message.
     pub(super) fn position(&self) -> String {
         match self {
             Self::Written(lines) => format!("line {}", lines.number),
@@ -86,7 +86,7 @@ impl<'a> DxfGroups<'a> {
         }
     }
 
-    /// The next group; none at the end of the file.
+    /// The next group; `None` at the end of the file.
     pub(super) fn next(&mut self) -> Result<Option<DxfGroup<'a>>, Message> {
         let group = match self {
             Self::Written(lines) => {

@@ -1,9 +1,9 @@
-//! DXF, ASCII or binary → parts: one per layer, and per block and layer.
+//! Reads DXF, ASCII or binary: one part per layer, and per block and layer.
 //!
-//! The reader is our own: the crate `dxf` keeps whole drawings of all entities as structs, does not know MESH, and does
-//! not report what it skipped. `group` reads codes and values, `sections` the sections, `fields` an entity; `entity`,
-//! `outline` and `polyline` turn it into triangles; `frame` has the axes of planes, and `place` puts blocks where they
-//! are inserted.
+//! The reader is our own: the crate `dxf` keeps all entities of a drawing as structs, does not know MESH, and does not
+//! report what it skipped. `group` reads codes and values, `sections` the sections, and `fields` an entity. `entity`,
+//! `outline` and `polyline` turn entities into triangles, `frame` computes the axes of planes, and `place` puts blocks
+//! where they are inserted.
 
 mod drawing;
 mod entity;

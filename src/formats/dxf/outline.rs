@@ -1,4 +1,4 @@
-//! An outline in a plane, and its thickness → walls.
+//! Makes walls of outlines with a thickness.
 
 use super::faces::EntityFaces;
 use super::fields::DxfFields;
@@ -6,10 +6,10 @@ use super::frame::world_from_object;
 use glam::{DMat3, DVec2, DVec3};
 use std::f64::consts::TAU;
 
-/// The angle that one straight piece of an arc stands for: on a radius of 10 m it leaves the arc by 2.4 mm.
+/// The angle of one straight piece of an arc. With a radius of 10 m it is off by at most 2.4 mm.
 const PIECE_RAD: f64 = TAU / 144.0;
 
-/// A line, circle or arc with thickness: a wall; a circle has ends.
+/// A line, circle or arc with a thickness: a wall. A circle also has ends.
 pub(super) fn extruded(kind: &[u8], fields: &DxfFields, surface: &mut EntityFaces) {
     let frame = world_from_object(fields.extrusion());
     let rise = frame * DVec3::Z * fields.real(39);
@@ -17,7 +17,7 @@ pub(super) fn extruded(kind: &[u8], fields: &DxfFields, surface: &mut EntityFace
         return;
     }
     if kind == b"LINE" {
-        // the one entity whose points are the world's
+        // the one entity whose points are in world coordinates
         return walls(&[fields.point(10), fields.point(11)], false, rise, surface);
     }
     let (middle, radius) = (fields.point(10), fields.real(40));
@@ -37,7 +37,7 @@ pub(super) fn extruded(kind: &[u8], fields: &DxfFields, surface: &mut EntityFace
     }
 }
 
-/// A solid or trace: four corners of which the last two are crossed; with thickness, a prism.
+/// A solid or trace: four corners, the last two swapped. With a thickness, it is a prism.
 pub(super) fn filled(fields: &DxfFields, surface: &mut EntityFaces) {
     let frame = world_from_object(fields.extrusion());
     let fourth = if fields.given(13).is_some() { 13 } else { 12 };
@@ -57,7 +57,7 @@ fn ends(points: &[DVec3], rise: DVec3, surface: &mut EntityFaces) {
     surface.face(&bottom);
 }
 
-/// The walls over points that follow each other.
+/// The walls over consecutive points.
 pub(super) fn walls(points: &[DVec3], is_closed: bool, rise: DVec3, surface: &mut EntityFaces) {
     let close = points.last().zip(points.first()).filter(|_| is_closed && points.len() > 2);
     let pairs = points.windows(2).filter_map(|two| Some((two.first()?, two.last()?)));
@@ -66,7 +66,8 @@ pub(super) fn walls(points: &[DVec3], is_closed: bool, rise: DVec3, surface: &mu
     }
 }
 
-/// Points of a plane, each with the bulge of what follows it (the tangent of a quarter of the arc's angle), in the world.
+/// Converts points of a plane to the world, and arcs to points. Each point has the bulge of the segment after it: the
+/// tangent of a quarter of the arc's angle.
 pub(super) fn bulged(points: &[(DVec2, f64)], is_closed: bool, height: f64, frame: &DMat3) -> Vec<DVec3> {
     let mut straight: Vec<DVec2> = Vec::with_capacity(points.len());
     for (index, &(point, bulge)) in points.iter().enumerate() {
@@ -79,7 +80,6 @@ pub(super) fn bulged(points: &[(DVec2, f64)], is_closed: bool, height: f64, fram
     straight.iter().map(|point| *frame * point.extend(height)).collect()
 }
 
-/// The points between the ends of an arc.
 fn arc(from: DVec2, to: DVec2, bulge: f64, into: &mut Vec<DVec2>) {
     let angle = 4.0 * bulge.atan();
     let middle = (from + to) / 2.0 + (to - from).perp() * (1.0 - bulge * bulge) / (4.0 * bulge);

@@ -1,4 +1,4 @@
-//! A drawing's blocks, where they are inserted → parts.
+//! Makes parts of a drawing's blocks where they are inserted.
 
 use super::drawing::{Drawing, DxfBlock, DxfLayer, LAYER_0};
 use super::entity::NO_ACIS;
@@ -10,7 +10,7 @@ use crate::message::{Message, message};
 use glam::DAffine3;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// How deep blocks may be inserted in blocks.
+/// How deeply blocks may be nested.
 const MOST_DEPTH: usize = 64;
 
 pub(super) fn model_of(mut drawing: Drawing) -> Result<Model, Message> {
@@ -22,7 +22,7 @@ pub(super) fn model_of(mut drawing: Drawing) -> Result<Model, Message> {
         return Err(message![what; "export it in parts or with less detail"]);
     }
     if total == 0 && drawing.acis > 0 {
-        let what = format!("has {} solids or surfaces, and CAD programs alone can read their shape", drawing.acis);
+        let what = format!("has {} solids or surfaces, whose shape only CAD programs can read", drawing.acis);
         return Err(message![what; "in AutoCAD, make meshes of them with MESHSMOOTH, or export STL, and open that"]);
     }
     let mut placer = Placer {
@@ -46,7 +46,7 @@ pub(super) fn model_of(mut drawing: Drawing) -> Result<Model, Message> {
     Ok(model)
 }
 
-/// What was left out, and what else is to be known.
+/// Adds to the model what was left out, and the notes.
 fn tell(model: &mut Model, mut drawing: Drawing) {
     for layer in drawing.layers.iter().filter(|layer| layer.left_out > 0) {
         let why = if layer.is_frozen { "the layer is frozen" } else { "the layer is off" };
@@ -63,24 +63,24 @@ fn tell(model: &mut Model, mut drawing: Drawing) {
     if drawing.lidless > 0 {
         let (outlines, have) = if drawing.lidless == 1 { ("outline", "has") } else { ("outlines", "have") };
         model.notes.push(message![
-            format!("has {} closed {outlines} with a thickness that {have} walls and no lid", drawing.lidless);
-            "in AutoCAD, lay a 3D face on each where a roof is to receive the sun"
+            format!("has {} closed {outlines} with a thickness that {have} walls but no lid", drawing.lidless);
+            "in AutoCAD, add a 3D face on each that should be a roof"
         ]);
     }
     if drawing.wide > 0 {
         let (lines, have) = if drawing.wide == 1 { ("polyline", "has") } else { ("polylines", "have") };
         model.notes.push(message![format!(
-            "has {} {lines} that {have} a width, which is not read: each is as thin as its middle line",
+            "has {} {lines} that {have} a width, which is not read: each is read as its middle line",
             drawing.wide
         )]);
     }
 }
 
-/// How many triangles blocks have, with those that they insert: counted before anything is placed.
+/// Counts the triangles of blocks with those that they insert, before anything is placed.
 struct BlockCounts<'a> {
     blocks: &'a FxHashMap<String, DxfBlock>,
     known: FxHashMap<String, u64>,
-    /// Those that are being counted.
+    /// The blocks that are being counted.
     open: FxHashSet<String>,
 }
 
@@ -103,8 +103,9 @@ impl BlockCounts<'_> {
         let blocks = self.blocks;
         let Some(block) = blocks.get(name) else { return Ok(0) };
         if depth >= MOST_DEPTH || !self.open.insert(name.to_owned()) {
-            let what = format!("has a block that holds itself, or blocks in blocks deeper than {MOST_DEPTH}: `{name}`");
-            return Err(message![what; "mend the drawing and export it again"]);
+            let what =
+                format!("has a block that contains itself, or blocks nested more than {MOST_DEPTH} deep: `{name}`");
+            return Err(message![what; "repair the drawing and export it again"]);
         }
         let count = self.of(block, depth + 1)?;
         self.open.remove(name);
@@ -113,7 +114,7 @@ impl BlockCounts<'_> {
     }
 }
 
-/// Where a block stands: on which layer, and in which block that the model space inserts.
+/// Where a block is placed: its layer, and the outermost block that it is in.
 #[derive(Clone, Copy)]
 struct BlockSite<'a> {
     world_from_block: DAffine3,
@@ -130,7 +131,7 @@ struct Placer<'a, 'b> {
     part_of: FxHashMap<(Option<&'a str>, u32), usize>,
 }
 
-/// The triangles of a layer, in a block or in the model space.
+/// The placed triangles of a layer, in a block or in the model space.
 struct PlacedLayer<'a> {
     block: Option<&'a str>,
     layer: u32,
@@ -138,7 +139,7 @@ struct PlacedLayer<'a> {
 }
 
 impl<'a> Placer<'a, '_> {
-    /// Places a block, of which the counts are known and the depth is bounded.
+    /// Places a block. Its triangles are already counted, and its depth is limited.
     fn place(&mut self, block: &'a DxfBlock, site: BlockSite<'a>, depth: usize) -> Result<(), Message> {
         let layer_of = |layer: u32| if layer == LAYER_0 && depth > 0 { site.layer } else { layer };
         for found in &block.triangles {
@@ -151,13 +152,15 @@ impl<'a> Placer<'a, '_> {
             }
             let mirrors = site.world_from_block.matrix3.determinant() < 0.0;
             let part = self.part(site.top, layer)?;
-            // no model has so many triangles that their corners are not counted in 32 bits
+            // cannot overflow: a model has too few triangles for that
             let first = part.positions.len() as u32;
             part.positions.extend(found.positions.iter().map(|&point| site.world_from_block.transform_point3(point)));
             let turned = found.triangles.iter().map(|&[a, b, c]| if mirrors { [a, c, b] } else { [a, b, c] });
             part.triangles.extend(turned.map(|triangle| triangle.map(|corner| first + corner)));
             if !part.positions.iter().skip(first as usize).all(|point| point.is_finite()) {
-                return Err(message!["has blocks scaled beyond all numbers"; "mend the drawing and export it again"]);
+                return Err(
+                    message!["has blocks whose scaled coordinates are too large"; "repair the drawing and export it again"],
+                );
             }
         }
         for insert in &block.inserts {
@@ -209,7 +212,7 @@ impl<'a> Placer<'a, '_> {
     }
 }
 
-/// The parts, each with the names of its layer and block.
+/// The parts, named after their layer and block.
 fn named(parts: Vec<PlacedLayer>, layers: &[DxfLayer]) -> Vec<Part> {
     let mut layers_of: FxHashMap<Option<&str>, usize> = FxHashMap::default();
     for placed in &parts {

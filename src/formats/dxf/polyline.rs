@@ -1,4 +1,4 @@
-//! Polylines, of which some are meshes, and MESH.
+//! Reads polylines, some of which are meshes, and MESH.
 
 use super::faces::EntityFaces;
 use super::fields::DxfFields;
@@ -6,24 +6,23 @@ use super::frame::world_from_object;
 use super::outline::{bulged, walls};
 use glam::{DVec2, DVec3};
 
-/// Flags of a polyline.
+/// The flags of a polyline.
 const CLOSED: i64 = 1;
 const SMOOTHED: i64 = 4;
 const IN_SPACE: i64 = 8;
 const GRID: i64 = 16;
 const CLOSED_ACROSS: i64 = 32;
 const POLYFACE: i64 = 64;
-/// Flags of its vertices.
+/// The flags of its vertices.
 const CONTROL_POINT: i64 = 16;
 const OF_MESH: i64 = 64;
 const OF_POLYFACE: i64 = 128;
 
-/// A VERTEX.
 pub(super) struct PolylineVertex {
     point: DVec3,
     bulge: f64,
     flags: i64,
-    /// Of a polyface mesh's face: its vertices from 1, negative where the edge that follows is invisible.
+    /// For a face of a polyface mesh: its vertices from 1, negative if the edge that follows is invisible.
     corners: [i64; 4],
 }
 
@@ -62,7 +61,7 @@ fn raise(points: &[(DVec2, f64)], height: f64, fields: &DxfFields, surface: &mut
     }
 }
 
-/// POLYLINE: a line in a plane, or a mesh of either kind; gives how many faces name vertices that are not there.
+/// POLYLINE: a line in a plane, or one of two kinds of mesh. Returns the number of faces with missing vertices.
 pub(super) fn heavy(fields: &DxfFields, vertices: &[PolylineVertex], surface: &mut EntityFaces) -> u64 {
     let flags = fields.whole(70);
     if flags & POLYFACE != 0 {
@@ -93,7 +92,7 @@ fn polyface(vertices: &[PolylineVertex], surface: &mut EntityFaces) -> u64 {
     missing
 }
 
-/// A mesh of rows and columns; where it is smoothed, of the finer ones.
+/// A mesh of rows and columns; if it is smoothed, the finer ones.
 fn grid(fields: &DxfFields, vertices: &[PolylineVertex], surface: &mut EntityFaces) {
     let flags = fields.whole(70);
     let is_smooth = flags & SMOOTHED != 0;
@@ -114,10 +113,10 @@ fn grid(fields: &DxfFields, vertices: &[PolylineVertex], surface: &mut EntityFac
     }
 }
 
-/// MESH, as it is before any smoothing: lists of vertices and faces; gives how many faces name vertices that are not there.
+/// MESH without smoothing: lists of vertices and faces. Returns the number of faces with missing vertices.
 pub(super) fn mesh(fields: &DxfFields, surface: &mut EntityFaces) -> u64 {
     let (mut points, mut faces): (Vec<DVec3>, Vec<i64>) = (Vec::new(), Vec::new());
-    // which list the numbers belong to: the one whose length was said last
+    // numbers belong to the list whose length came last
     let mut list = 0;
     for group in &fields.groups {
         match (group.code, points.last_mut()) {

@@ -1,4 +1,4 @@
-//! The sections of a DXF file → the drawing.
+//! Reads the sections of a DXF file into a drawing.
 
 use super::drawing::{Drawing, DxfBlock, DxfLayer};
 use super::entity;
@@ -37,7 +37,7 @@ impl Drawing {
                 _ => (),
             }
         }
-        // many a small program leaves the last line out, but no section
+        // many small programs leave out the last line, but not a section
         if !has_end && drawing.is_empty() {
             let what = format!("ends in {} without entities", groups.position());
             return Err(message![what; "the file is cut off or damaged: copy or export it again"]);
@@ -113,7 +113,7 @@ impl Drawing {
                     let name = head.name(2);
                     let mut block = DxfBlock { base: head.point(10), ..DxfBlock::default() };
                     group = self.fill(&mut block, next, groups)?;
-                    // a definition is written once, and an external one not at all
+                    // the first definition counts; external blocks are not read
                     self.blocks.entry(name.to_uppercase()).or_insert(block);
                 }
                 _ => group = DxfFields::read(groups)?.1,
@@ -129,7 +129,7 @@ impl Drawing {
         Ok(())
     }
 
-    /// Reads entities into a block until it ends, or its section does; gives the group behind its end.
+    /// Reads entities into a block until it or its section ends. Returns the group after that.
     fn fill<'a>(
         &mut self,
         block: &mut DxfBlock,

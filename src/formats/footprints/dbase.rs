@@ -1,9 +1,9 @@
-//! The attributes of a shapefile: a dBASE table, of which the wanted columns are read.
+//! Reads the attributes of a shapefile: the wanted columns of a dBASE table.
 
 use super::flatbuffer::bytes_at;
 use super::tags::FootprintTags;
 
-/// Bytes of a column's description.
+/// The bytes of a column's description.
 const COLUMN_BYTES: usize = 32;
 
 /// A table, row by row.
@@ -21,13 +21,13 @@ struct WantedColumn {
 }
 
 impl<'a> AttributeTable<'a> {
-    /// The table in a file's bytes; none where they are no such table.
+    /// Reads the table's header; `None` if the bytes are not a dBASE table.
     pub(super) fn of(bytes: &'a [u8]) -> Option<Self> {
         let head_bytes = usize::from(u16::from_le_bytes(bytes_at(bytes, 8)?));
         let row_bytes = usize::from(u16::from_le_bytes(bytes_at(bytes, 10)?));
         let rows = bytes.get(head_bytes..).filter(|_| row_bytes > 0)?;
         let mut columns = Vec::new();
-        // a row begins with the mark of those that are deleted
+        // a row begins with the mark of deleted rows
         let mut first = 1;
         let described = bytes.get(COLUMN_BYTES..head_bytes)?.chunks_exact(COLUMN_BYTES);
         for column in described.take_while(|column| column[0] != b'\r') {
@@ -41,7 +41,7 @@ impl<'a> AttributeTable<'a> {
         Some(Self { rows, row_bytes, columns })
     }
 
-    /// What a row says, from 0; none where there is no such row.
+    /// The attributes in a row, from 0; `None` without such a row.
     pub(super) fn row(&self, number: usize) -> Option<FootprintTags> {
         let first = number.checked_mul(self.row_bytes)?;
         let row = self.rows.get(first..first.checked_add(self.row_bytes)?)?;
@@ -52,7 +52,7 @@ impl<'a> AttributeTable<'a> {
             let value = match value.trim() {
                 "T" | "t" | "Y" | "y" if column.is_truth => "yes",
                 _ if column.is_truth => "no",
-                // stars are written where a number does not fit
+                // stars mean that the number did not fit
                 value => value.trim_start_matches('*'),
             };
             tags.set(&column.name, value);
@@ -61,7 +61,7 @@ impl<'a> AttributeTable<'a> {
     }
 }
 
-/// Text in UTF-8, or else in Latin 1, which most tables without it are in.
+/// Text in UTF-8, otherwise in Latin-1, as in most other tables.
 fn text(bytes: &[u8]) -> String {
     std::str::from_utf8(bytes).map_or_else(|_| bytes.iter().map(|&byte| char::from(byte)).collect(), str::to_owned)
 }

@@ -1,4 +1,4 @@
-//! Outlines → blocks.
+//! Extrudes outlines to blocks.
 
 use super::tags::{FootprintTags, Rise};
 use super::{Footprint, RingPolygon, names_of};
@@ -13,13 +13,13 @@ pub(super) struct FootprintOutline {
     pub tags: FootprintTags,
     number: u64,
     rise: Rise,
-    /// Its polygons with an area: outer rings counter-clockwise, holes clockwise.
+    /// Its polygons with an area. Outer rings are counter-clockwise, holes clockwise.
     pub polygons: Vec<FlatPolygon>,
-    /// Whether one of them crosses itself.
+    /// Whether one of the polygons crosses itself.
     pub crosses: bool,
 }
 
-/// One polygon of an outline.
+/// A polygon of an outline.
 pub(super) struct FlatPolygon {
     /// The corners of all rings.
     pub corners: Vec<DVec2>,
@@ -32,7 +32,7 @@ pub(super) struct FlatPolygon {
 }
 
 impl FootprintOutline {
-    /// Cuts the polygons of a footprint. What has no area is counted.
+    /// Cuts the polygons of a footprint. Polygons without area are counted.
     pub(super) fn cut(footprint: Footprint, rise: Rise, cutter: &mut FaceCutter, tally: &mut LeftOutTally) -> Self {
         let Footprint { polygons, tags, number } = footprint;
         let mut outline = Self { tags, number, rise, polygons: Vec::new(), crosses: false };
@@ -52,7 +52,7 @@ impl FootprintOutline {
         self.polygons.is_empty()
     }
 
-    /// How many triangles the block has.
+    /// The number of the block's triangles.
     pub(super) fn triangle_count(&self) -> u64 {
         self.polygons.iter().map(|polygon| 2 * (polygon.triangles.len() + polygon.corners.len()) as u64).sum()
     }
@@ -62,7 +62,7 @@ impl FootprintOutline {
         self.polygons.iter().all(|polygon| polygon.foot == 0.0)
     }
 
-    /// What its block is called.
+    /// The block's name.
     pub(super) fn name(&self, layer: Option<&str>) -> String {
         names_of(&self.tags, self.number, layer).0
     }
@@ -79,7 +79,7 @@ impl FootprintOutline {
 }
 
 impl FlatPolygon {
-    /// The polygon, and whether its triangles are all that it encloses.
+    /// Cuts a polygon. Returns whether its triangles cover what it encloses.
     fn cut(polygon: &RingPolygon, cutter: &mut FaceCutter) -> Result<(Self, bool), Uncut> {
         let foot = polygon.points.iter().map(|point| point.z).fold(f64::INFINITY, f64::min);
         let (mut corners, mut ends) = (Vec::new(), Vec::new());
@@ -88,7 +88,7 @@ impl FlatPolygon {
             let from = corners.len();
             add_ring(polygon.points.get(start..end).unwrap_or_default(), ring == 0, &mut corners);
             start = end;
-            // a hole without an area is none; an outline without one is found below
+            // a hole without an area is ignored; an outline without one is found below
             if ring == 0 || corners.len() > from {
                 ends.push(corners.len());
             }
@@ -103,14 +103,14 @@ impl FlatPolygon {
         Ok((Self { corners, ends, triangles, foot }, is_exact))
     }
 
-    /// A point within it.
+    /// A point inside it.
     pub(super) fn inner_point(&self) -> Option<DVec2> {
         let corners = self.triangles.first()?.map(|corner| self.corners.get(corner as usize).copied());
         let [Some(a), Some(b), Some(c)] = corners else { return None };
         Some((a + b + c) / 3.0)
     }
 
-    /// The lowest and highest coordinates.
+    /// The least and the greatest coordinates.
     pub(super) fn bounds(&self) -> (DVec2, DVec2) {
         let all = self.corners.iter();
         all.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), &corner| (low.min(corner), high.max(corner)))
@@ -133,7 +133,7 @@ impl FlatPolygon {
         inside
     }
 
-    /// Floor, roof and walls, seen from outside counter-clockwise.
+    /// Adds the floor, the roof and the walls, counter-clockwise as seen from outside.
     fn extrude(&self, rise: Rise, part: &mut Part) {
         let first = u32::try_from(part.positions.len()).unwrap_or(u32::MAX);
         let count = u32::try_from(self.corners.len()).unwrap_or(u32::MAX);
@@ -159,7 +159,7 @@ impl FlatPolygon {
     }
 }
 
-/// Adds a ring without repeated points, counter-clockwise where it is the outer one, else clockwise.
+/// Adds a ring without repeated points: counter-clockwise if it is the outer one, otherwise clockwise.
 fn add_ring(points: &[DVec3], is_outer: bool, corners: &mut Vec<DVec2>) {
     let mut ring: Vec<[f64; 2]> = points.iter().map(|point| [point.x, point.y]).collect();
     ring.dedup();

@@ -1,7 +1,7 @@
-//! Tables of FlatBuffers, as far as FlatGeobuf needs them. Every offset is checked; what an offset outside of the bytes
-//! would lead to counts as absent.
+//! Reads tables of FlatBuffers, as far as FlatGeobuf needs them. Every offset is checked; data outside of the bytes
+//! counts as absent.
 
-/// A table in some bytes.
+/// A table in a buffer.
 #[derive(Clone, Copy)]
 pub(super) struct FlatTable<'a> {
     bytes: &'a [u8],
@@ -32,7 +32,7 @@ impl<'a> FlatTable<'a> {
         Some(Self { bytes, at, fields, fields_bytes })
     }
 
-    /// Where a field's value is; none where the table leaves it out.
+    /// The offset of a field's value; `None` if the table does not have the field.
     fn field(&self, number: usize) -> Option<usize> {
         let entry = 4 + 2 * number;
         if entry + 2 > self.fields_bytes {
@@ -58,7 +58,7 @@ impl<'a> FlatTable<'a> {
         bytes_at(self.bytes, self.field(number)?).map(u64::from_le_bytes)
     }
 
-    /// The bytes of a list whose elements take so many, and where the first is.
+    /// The bytes of a list with elements of a size, and the offset of the first.
     fn list(&self, number: usize, element: usize) -> Option<(usize, &'a [u8])> {
         let at = self.field(number)?;
         let at = at.checked_add(u32_at(self.bytes, at)?)?;

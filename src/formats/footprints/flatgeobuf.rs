@@ -1,4 +1,4 @@
-//! FlatGeobuf: a header, an index that is skipped, and features, each a FlatBuffer preceded by its length.
+//! Reads FlatGeobuf: a header, an index that is skipped, and features, each a FlatBuffer with its length before it.
 
 use super::flatbuffer::{FlatTable, bytes_at};
 use super::tags::FootprintTags;
@@ -11,13 +11,13 @@ use crate::message::{Message, message};
 use glam::DVec3;
 use std::path::Path;
 
-/// The first bytes of version 3; the last of the eight is a patch's number.
+/// The first bytes of version 3; the eighth byte is a patch number.
 const MAGIC: &[u8] = b"fgb\x03fgb";
 
-/// Bytes of a box in the index.
+/// The bytes of a box in the index.
 const NODE_BYTES: u64 = 40;
 
-/// How deep collections of geometries may be nested.
+/// How deeply collections of geometries may be nested.
 const MOST_DEEP: usize = 8;
 
 /// FlatGeobuf, `.fgb`.
@@ -52,7 +52,7 @@ fn cut_off() -> Message {
     message!["is cut off or damaged"; "copy or export it again"]
 }
 
-/// A column of the attributes.
+/// A column of attributes.
 struct AttributeColumn {
     name: String,
     kind: u8,
@@ -88,14 +88,14 @@ fn read(bytes: &[u8], footprints: &mut Footprints) -> Result<Coordinates, Messag
     Ok(coordinates_of(&header))
 }
 
-/// A buffer with its length before it, and what follows.
+/// A buffer with its length before it, and the offset after it.
 fn sized(bytes: &[u8], at: usize) -> Option<(&[u8], usize)> {
     let first = at.checked_add(4)?;
     let end = first.checked_add(u32::from_le_bytes(bytes_at(bytes, at)?) as usize)?;
     Some((bytes.get(first..end)?, end))
 }
 
-/// How large the index is: boxes of all features, and of each so many of them, up to one.
+/// The size of the index: a tree of boxes, with those of the features as leaves.
 fn index_bytes(header: &FlatTable<'_>) -> Option<usize> {
     let features = header.u64(8).unwrap_or(0);
     let size = u64::from(header.u16(9).unwrap_or(16));
@@ -118,7 +118,7 @@ fn columns_in(table: &FlatTable<'_>, number: usize) -> Vec<AttributeColumn> {
     table.tables(number).map(column).collect()
 }
 
-/// What the attributes of a feature say: each the number of its column and its value.
+/// Reads the attributes of a feature: pairs of a column index and a value.
 fn tags_of(mut bytes: &[u8], columns: &[AttributeColumn]) -> FootprintTags {
     let mut tags = FootprintTags::default();
     while let Some((number, rest)) = bytes.split_first_chunk::<2>() {
@@ -132,7 +132,7 @@ fn tags_of(mut bytes: &[u8], columns: &[AttributeColumn]) -> FootprintTags {
     tags
 }
 
-/// A value as text, and the bytes behind it.
+/// A value as text, and the bytes after it.
 fn value_of(kind: u8, bytes: &[u8]) -> Option<(String, &[u8])> {
     macro_rules! number {
         ($number:ty) => {{
@@ -164,7 +164,7 @@ fn value_of(kind: u8, bytes: &[u8]) -> Option<(String, &[u8])> {
     })
 }
 
-/// The polygons of a geometry; what else is in it is counted.
+/// Adds the polygons of a geometry, and counts everything else in it.
 fn polygons_of(
     geometry: &FlatTable<'_>,
     kind: u8,
@@ -176,7 +176,7 @@ fn polygons_of(
     match kind {
         // Polygon, Triangle
         3 | 17 => polygons.extend(polygon_of(geometry)),
-        // MultiPolygon, whose parts need not say what they are
+        // MultiPolygon, whose parts may omit their type
         6 if deep > 0 => geometry.tables(7).for_each(|part| polygons_of(&part, 3, deep - 1, polygons, footprints)),
         7 if deep > 0 => geometry.tables(7).for_each(|part| polygons_of(&part, 0, deep - 1, polygons, footprints)),
         1 | 4 => footprints.tally.add("Point", super::NO_AREA),
@@ -207,7 +207,7 @@ fn coordinates_of(header: &FlatTable<'_>) -> Coordinates {
     let texts = [crs.text(5), crs.text(4), crs.text(2)];
     let text = texts.into_iter().flatten().find(|text| !text.is_empty());
     match text.and_then(named_system) {
-        // WKT keeps its text: its parts have codes of their own
+        // WKT stays as text: its parts have codes of their own
         Some(_) if text.is_some_and(|text| text.contains('[')) => Coordinates::Map(text.unwrap_or_default().to_owned()),
         Some(system) => Coordinates::Map(system.crs),
         None => Coordinates::Local,

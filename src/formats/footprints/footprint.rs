@@ -1,28 +1,28 @@
-//! One footprint as its file has it, and its names.
+//! A footprint as in its file, and its names.
 
 use super::tags::FootprintTags;
 use crate::formats::left_out::label;
 use glam::DVec3;
 
-/// Why what is no polygon is left out.
-pub(super) const NO_AREA: &str = "no polygons";
+/// Why things that are not polygons are left out.
+pub(super) const NO_AREA: &str = "they are not polygons";
 
-/// A polygon as a file has it: its rings follow each other, the outer one first.
+/// A polygon as in its file: its rings follow each other, the outer one first.
 #[derive(Clone, Debug, Default)]
 pub(super) struct RingPolygon {
     pub points: Vec<DVec3>,
     pub ends: Vec<usize>,
 }
 
-/// One feature: a building, a part of one, or something else.
+/// A feature: a building, a part of one, or something else.
 pub(super) struct Footprint {
     pub polygons: Vec<RingPolygon>,
     pub tags: FootprintTags,
-    /// Its number in the file, from 1.
+    /// Its index in the file, from 1.
     pub number: u64,
 }
 
-/// What a feature is called, and by what else it may be meant.
+/// A feature's name, and the other names that select it.
 pub(super) fn names_of(tags: &FootprintTags, number: u64, layer: Option<&str>) -> (String, Vec<String>) {
     let kind = tags.kind().unwrap_or("footprint");
     let address = tags.address();

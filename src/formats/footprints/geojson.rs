@@ -1,4 +1,4 @@
-//! GeoJSON: one document, or several in sequence.
+//! Reads GeoJSON: one document, or several in sequence.
 
 use super::tags::FootprintTags;
 use super::{Footprints, NO_AREA, RingPolygon};
@@ -15,7 +15,7 @@ use std::borrow::Cow;
 use std::fmt;
 use std::path::Path;
 
-/// Types of GeoJSON's objects by which a file is known.
+/// The types by which GeoJSON is recognised.
 const KINDS: [&str; 5] = ["FeatureCollection", "Feature", "GeometryCollection", "Polygon", "MultiPolygon"];
 
 /// GeoJSON, `.geojson` and `.json`.
@@ -48,7 +48,7 @@ impl Format for GeoJson {
     }
 }
 
-/// An object of GeoJSON, whatever it is: a collection, a feature or a geometry.
+/// Any object of GeoJSON: a collection, a feature or a geometry.
 #[derive(Deserialize)]
 struct GeoObject {
     #[serde(rename = "type", default)]
@@ -65,27 +65,27 @@ struct GeoObject {
     properties: Option<FootprintTags>,
     #[serde(default)]
     id: Option<Value>,
-    /// Of a layer; GDAL writes it.
+    /// The layer's name, which GDAL writes.
     #[serde(default)]
     name: Option<Value>,
     #[serde(default)]
     crs: Option<Value>,
 }
 
-/// Positions in lists of lists.
+/// Positions in nested lists.
 enum Positions {
     Point(DVec3),
     Lists(Vec<Positions>),
 }
 
-/// Reads all objects, and gives the reference system that the first of them names.
+/// Reads all objects. Returns the reference system that the first of them names.
 fn read(bytes: &[u8], footprints: &mut Footprints) -> Result<Option<Value>, Message> {
     let mut crs = None;
     let objects = serde_json::Deserializer::from_slice(bytes).into_iter::<GeoObject>();
     for object in objects {
         let mut object = object.map_err(|error| match error.classify() {
             serde_json::error::Category::Eof => message![format!("is cut off ({error})"); "export it again"],
-            _ => message![format!("is not JSON as GeoJSON has it ({error})"); "export it again"],
+            _ => message![format!("is not valid GeoJSON ({error})"); "export it again"],
         })?;
         crs = crs.or(object.crs.take());
         if let Some(Value::String(name)) = object.name.take() {
@@ -99,7 +99,7 @@ fn read(bytes: &[u8], footprints: &mut Footprints) -> Result<Option<Value>, Mess
     Ok(crs)
 }
 
-/// Adds a feature, or a geometry that is one without properties.
+/// Adds a feature, or a geometry as a feature without properties.
 fn add(feature: GeoObject, footprints: &mut Footprints) {
     let mut tags = feature.properties.unwrap_or_default();
     match feature.id {
@@ -131,7 +131,7 @@ fn add(feature: GeoObject, footprints: &mut Footprints) {
     footprints.add(polygons, tags);
 }
 
-/// The polygons of a geometry. The JSON's own depth is bounded, and so is this.
+/// Adds the polygons of a geometry. The JSON parser limits the depth of the recursion.
 fn polygons_of(geometry: GeoObject, polygons: &mut Vec<RingPolygon>, footprints: &mut Footprints) {
     let kind = geometry.kind.as_deref().unwrap_or_default();
     let lists = match geometry.coordinates {
@@ -142,7 +142,7 @@ fn polygons_of(geometry: GeoObject, polygons: &mut Vec<RingPolygon>, footprints:
         "Polygon" => add_polygon(lists, polygons, footprints),
         "MultiPolygon" => lists.into_iter().for_each(|polygon| match polygon {
             Positions::Lists(rings) => add_polygon(rings, polygons, footprints),
-            Positions::Point(_) => footprints.tally.add("polygons", "rings that are no lists of positions"),
+            Positions::Point(_) => footprints.tally.add("polygons", "rings that are not lists of positions"),
         }),
         "GeometryCollection" => {
             let all = geometry.geometries.into_iter().flatten();
@@ -161,7 +161,7 @@ fn add_polygon(rings: Vec<Positions>, polygons: &mut Vec<RingPolygon>, footprint
         };
         for point in points {
             let Positions::Point(point) = point else {
-                footprints.tally.add("polygons", "rings that are no lists of positions");
+                footprints.tally.add("polygons", "rings that are not lists of positions");
                 return;
             };
             polygon.points.push(point);
@@ -171,17 +171,17 @@ fn add_polygon(rings: Vec<Positions>, polygons: &mut Vec<RingPolygon>, footprint
     polygons.push(polygon);
 }
 
-/// What the coordinates are: longitudes and latitudes, unless an older `crs` member says otherwise.
+/// The reference system: longitudes and latitudes, unless an older `crs` member says otherwise.
 fn coordinates_of(crs: Option<&Value>, footprints: &mut Footprints) -> Coordinates {
     let name = crs.and_then(|crs| crs.get("properties")?.get("name")?.as_str());
     if let Some(system) = name.and_then(named_system) {
-        // the easting or longitude is first, whatever the name would have elsewhere
+        // GeoJSON always has the easting or longitude first
         return Coordinates::Map(system.crs);
     }
     if footprints.may_be_degrees() {
         return Coordinates::Map("EPSG:4326".into());
     }
-    footprints.notes.push(message!["has coordinates that are no longitudes and latitudes, and does not say of which map they are: they are taken as metres";
+    footprints.notes.push(message!["has coordinates that are not longitudes and latitudes, and does not name their map: they are taken as metres";
         "name their reference system as crs, or export GeoJSON in WGS 84"]);
     Coordinates::Local
 }
@@ -194,7 +194,7 @@ impl<'de> Deserialize<'de> for FootprintTags {
 
 struct TagsVisitor;
 
-/// A key, borrowed where it has no escapes.
+/// A key, borrowed if it has no escapes.
 #[derive(Deserialize)]
 struct TagKey<'a>(#[serde(borrow)] Cow<'a, str>);
 
@@ -227,7 +227,7 @@ impl<'de> Visitor<'de> for TagsVisitor {
     }
 }
 
-/// What begins a list of positions.
+/// The first element of a list of positions.
 enum FirstPosition {
     Number(f64),
     List(Positions),

@@ -1,10 +1,9 @@
-//! Outlines of buildings with their heights → blocks with flat roofs: GeoJSON, FlatGeobuf and shapefiles.
+//! Reads outlines of buildings with heights as blocks with flat roofs: GeoJSON, FlatGeobuf and shapefiles.
 //!
-//! Outlines keep the coordinates of their file, whether degrees or those of a map. Everything here is independent of
-//! which they are, and `site` brings every corner to its place. The files of this folder, in the order of the flow:
-//! `geojson`, `flatgeobuf` with `flatbuffer`, `shapefile` with `dbase` (bytes → outlines), `tags` (the attributes of an
-//! outline, and lengths as people write them), `footprint` (one outline, and its names), `overlap` (which outlines are
-//! replaced by their parts), `extrude` (outlines → blocks).
+//! Outlines keep the coordinates of their file, degrees or map coordinates; `site` converts every corner. The files of
+//! this folder, in the order of the flow: `geojson`, `flatgeobuf` with `flatbuffer`, and `shapefile` with `dbase` read
+//! outlines; `tags` reads their attributes, and lengths as people write them; `footprint` names them; `overlap` finds
+//! outlines that their parts replace; `extrude` makes blocks.
 
 use super::face_cutter::FaceCutter;
 use super::left_out::{LeftOutTally, counted, listed};
@@ -29,21 +28,21 @@ mod overlap;
 mod shapefile;
 mod tags;
 
-/// Collects the features of a file.
+/// The features of a file.
 #[derive(Default)]
 struct Footprints {
     features: Vec<Footprint>,
-    /// What stands there as the file has it, without being extruded.
+    /// Bodies that are used as they are, without extrusion.
     bodies: Vec<Part>,
     tally: LeftOutTally,
     notes: Vec<Message>,
-    /// Of the layer, where the file names it.
+    /// The layer's name, if the file has one.
     layer: Option<String>,
     number: u64,
 }
 
 impl Footprints {
-    /// One more feature, with the polygons that it has.
+    /// Adds a feature with its polygons.
     fn add(&mut self, polygons: Vec<RingPolygon>, tags: FootprintTags) {
         self.number += 1;
         if !polygons.is_empty() {
@@ -51,7 +50,7 @@ impl Footprints {
         }
     }
 
-    /// The smallest and largest coordinates of all outlines and bodies.
+    /// The least and the greatest coordinates of all outlines and bodies.
     fn bounds(&self) -> Option<(DVec3, DVec3)> {
         let points = self.features.iter().flat_map(|feature| &feature.polygons).flat_map(|polygon| &polygon.points);
         let points = points.chain(self.bodies.iter().flat_map(|body| &body.positions));
@@ -61,23 +60,23 @@ impl Footprints {
         })
     }
 
-    /// Whether all coordinates may be degrees.
+    /// Whether all coordinates are in the range of degrees.
     fn may_be_degrees(&self) -> bool {
         self.bounds().is_none_or(|(low, high)| low.x >= -180.0 && high.x <= 180.0 && low.y >= -90.0 && high.y <= 90.0)
     }
 
-    /// The buildings as blocks. Metres and z up in heights; in plan what `coordinates` say.
+    /// Makes blocks of the buildings. Heights are metres with z up; in plan `coordinates` applies.
     fn finish(mut self, coordinates: Coordinates, default_height_m: Option<f64>) -> Result<Model, ModelFault> {
         let features = std::mem::take(&mut self.features);
         let buildings = self.buildings(features);
         let mut cutter = FaceCutter::new();
         let mut outlines = self.outlines(buildings, &mut cutter, default_height_m)?;
         let replaced = overlap::replaced_by_parts(&outlines);
-        let why = "parts of it stand instead";
+        let why = "its parts are used instead";
         self.tally.add_many("outlines", why, replaced.whole.len() as u64);
         if replaced.partly > 0 {
             self.notes.push(message![format!(
-                "has {} that building:part covers only in part: both stand there, the outline with its own height",
+                "has {} that building:part covers only in part: both are used, the outline with its own height",
                 counted(replaced.partly as u64, "outline")
             )]);
         }
@@ -87,7 +86,7 @@ impl Footprints {
             !replaced.whole.contains(&(at - 1))
         });
         let mut parts = std::mem::take(&mut self.bodies);
-        // what has a height of its own says nothing of the others
+        // features with heights of their own say nothing about the others
         let of_outlines = outlines.iter().map(FootprintOutline::is_at_zero);
         let from_ground: Vec<bool> = parts.iter().map(|_| false).chain(of_outlines).collect();
         parts.extend(outlines.iter().map(|outline| outline.part(self.layer.as_deref())));
@@ -108,8 +107,8 @@ impl Footprints {
         })
     }
 
-    /// The features that are buildings. Where some of a file are said to be, what is not, and has no height, is a road, a
-    /// park or a lake.
+    /// Selects buildings. If some features of a file are marked as buildings, those that are not and have no height are
+    /// roads, parks or lakes.
     fn buildings(&mut self, features: Vec<Footprint>) -> Vec<Footprint> {
         let is_told = features.iter().any(|feature| feature.tags.is_building() || feature.tags.is_part());
         features
@@ -119,9 +118,9 @@ impl Footprints {
                 let why = if tags.is_underground() {
                     Some("underground")
                 } else if tags.is_no_building() {
-                    Some("said to be no building")
+                    Some("marked as not a building")
                 } else if is_told && !tags.is_building() && !tags.is_part() && tags.height_m().is_none() {
-                    Some("no building and no height")
+                    Some("not marked as a building, and without a height")
                 } else {
                     None
                 };
@@ -131,7 +130,7 @@ impl Footprints {
             .collect()
     }
 
-    /// Those with a height and an area, cut into triangles.
+    /// The outlines that have a height and an area, cut into triangles.
     fn outlines(
         &mut self,
         buildings: Vec<Footprint>,
@@ -158,16 +157,16 @@ impl Footprints {
             outlines.push(outline);
         }
         if told.without.count > 0 && outlines.is_empty() && self.bodies.is_empty() {
-            let what = format!("has {}, and says the height of none of them", told.without.told("footprint"));
+            let what = format!("has {}, but no height of any of them", told.without.told("footprint"));
             let hint = " for this one, or export them with their heights in metres as \"height\"";
             return Err(message![what; "set ", Field::DefaultHeight, " for all models, or ", own_height(), hint].into());
         }
-        self.tally.add_many("footprints", "no height is said", told.without.count);
+        self.tally.add_many("footprints", "they have no height", told.without.count);
         self.note(&told, default_height_m);
         Ok(outlines)
     }
 
-    /// From where to where a footprint reaches; where nobody says it, that is counted.
+    /// The vertical extent of a footprint; if there is none, that is counted.
     fn rise_of(
         &mut self,
         footprint: &Footprint,
@@ -178,25 +177,25 @@ impl Footprints {
         let name = || names_of(tags, footprint.number, self.layer.as_deref()).0;
         told.unread.add_if(tags.has_unread_height(), name);
         told.unread_bottom.add_if(tags.has_unread_bottom(), name);
-        // a part of a guessed height would replace an outline whose height is known
+        // a part with a guessed height would replace an outline whose height is known
         let default_height_m = default_height_m.filter(|_| !tags.is_part());
         match tags.rise(default_height_m) {
             Some(rise) if rise.bottom_m < rise.top_m => return Some(rise),
-            Some(_) => self.tally.add("footprints", "the bottom is not below the top"),
+            Some(_) => self.tally.add("footprints", "their bottom is not below their top"),
             None if tags.is_part() => {
-                self.tally.add("building:part", "no height is said, and the outline stands instead");
+                self.tally.add("building:part", "they have no height, and the outline is used instead");
             }
             None => told.without.add_if(true, name),
         }
         None
     }
 
-    /// Notes which heights are guessed, and which are missing.
+    /// Adds notes on heights that are guessed or missing.
     fn note(&mut self, told: &HeightCounts, default_height_m: Option<f64>) {
         let HeightCounts { without, unread, unread_bottom, by_levels, by_default, crossing, .. } = told;
         if by_levels.count > 0 {
             let what = format!(
-                "says storeys and no height of {}: a storey is guessed to be {} m high",
+                "gives storeys but no height of {}: a storey is assumed to be {} m high",
                 by_levels.told("footprint"),
                 tags::STOREY_M
             );
@@ -206,7 +205,7 @@ impl Footprints {
             let (footprints, are) =
                 (counted(*by_default, "footprint"), if *by_default == 1 { "it is" } else { "each is" });
             let what =
-                format!("says no height of {footprints}: {are} taken as {metres} m high, as asked for this model");
+                format!("gives no height of {footprints}: {are} taken as {metres} m high, as requested for this model");
             self.notes.push(message![what]);
         }
         if without.count > 0 {
@@ -233,7 +232,7 @@ impl Footprints {
     }
 }
 
-/// That bottoms are written that cannot be read, where some are.
+/// A note if there are bottoms that cannot be read.
 fn unread_bottom_note(unread: &NamedFootprints) -> Option<Message> {
     let stand = if unread.count == 1 { "its block stands" } else { "their blocks stand" };
     let what = format!(
@@ -248,7 +247,7 @@ fn own_height() -> Piece {
     setting("[[model]]", "default_height", "`default_height` under [[model]]")
 }
 
-/// Footprints that something is said of: how many, and the names of the first.
+/// Footprints with something in common: their number, and the names of the first few.
 #[derive(Default)]
 struct NamedFootprints {
     count: u64,
@@ -256,7 +255,7 @@ struct NamedFootprints {
 }
 
 impl NamedFootprints {
-    /// How many are named; the others are counted.
+    /// The most names in a note; the rest are counted.
     const NAMED: usize = 4;
 
     fn add_if(&mut self, is_one: bool, name: impl Fn() -> String) {
@@ -266,7 +265,7 @@ impl NamedFootprints {
         }
     }
 
-    /// How many things these are or have, and whose.
+    /// How many there are, and the names.
     fn told(&self, thing: &str) -> String {
         let mut names = self.first.clone();
         match self.count.saturating_sub(names.len() as u64) {
@@ -278,20 +277,20 @@ impl NamedFootprints {
     }
 }
 
-/// What the notes say about heights, and about how outlines became blocks.
+/// The counts of the notes on heights and outlines.
 #[derive(Default)]
 struct HeightCounts {
-    /// Nobody says a height.
+    /// Without a height.
     without: NamedFootprints,
-    /// One is written that is none.
+    /// With a height that cannot be read.
     unread: NamedFootprints,
-    /// A bottom is written that is none.
+    /// With a bottom that cannot be read.
     unread_bottom: NamedFootprints,
-    /// Guessed from storeys.
+    /// With a height guessed from storeys.
     by_levels: NamedFootprints,
-    /// The user's for all.
+    /// With the height that the user gave for all.
     by_default: u64,
-    /// Outlines that cross themselves.
+    /// With an outline that crosses itself.
     crossing: NamedFootprints,
     triangles: u64,
 }

@@ -1,30 +1,30 @@
-//! Finds the outlines of buildings that are replaced by their parts.
+//! Finds the outlines of buildings that their parts replace.
 //!
-//! OpenStreetMap has a building as an outline and, where somebody drew it in more detail, as parts within it, each with
-//! its own height. Both together would give the building its greatest height everywhere.
+//! OpenStreetMap has a building as an outline and, if somebody mapped it in more detail, as parts within it, each with
+//! its own height. Both together would give the whole building its greatest height.
 
 use super::extrude::{FlatPolygon, FootprintOutline};
 use glam::DVec2;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// The share of an outline that parts must cover to stand instead of it.
+/// The share of an outline that parts must cover to replace it.
 const COVERED: f64 = 0.9;
 
-/// Points along each side of an outline's box, at whose middles coverage is looked at.
+/// The number of sample points along each side of an outline's box.
 const SAMPLES: usize = 24;
 
-/// The most outlines that are looked at for one part: no honest file has so many above each other.
+/// The most outlines that are tested for one part: no real file has so many above each other.
 const MOST_ABOVE: usize = 64;
 
-/// What parts do to outlines.
+/// The outlines that parts replace.
 pub(super) struct Replacements {
-    /// The numbers of the outlines that are replaced completely.
+    /// The indices of the outlines that are replaced.
     pub whole: FxHashSet<usize>,
-    /// The number of outlines that are covered in part, and kept.
+    /// The number of outlines that are partly covered, and kept.
     pub partly: usize,
 }
 
-/// Which outlines are covered by parts.
+/// Finds the outlines that parts cover.
 pub(super) fn replaced_by_parts(outlines: &[FootprintOutline]) -> Replacements {
     let mut replaced = Replacements { whole: FxHashSet::default(), partly: 0 };
     if !outlines.iter().any(|outline| outline.tags.is_part()) {
@@ -71,7 +71,8 @@ fn covered(outline: &FootprintOutline, parts: &[&FootprintOutline]) -> f64 {
     f64::from(covered) / f64::from(inside.max(1))
 }
 
-/// Outlines by where they lie: each is in the cells, as large as its box, of one level of a pyramid of grids.
+/// A spatial index of outlines: each is in the cells of one level of a pyramid of grids, whose cells are at least as
+/// large as its box.
 struct BoxIndex {
     low: DVec2,
     /// The side of the coarsest cell.
@@ -79,7 +80,7 @@ struct BoxIndex {
     cells: FxHashMap<(u8, u32, u32), Vec<usize>>,
 }
 
-/// The finest level's cells are so many to a side that none is smaller than a house in a country.
+/// The number of levels: the finest cells are about the size of a house in a country.
 const LEVELS: u8 = 24;
 
 impl BoxIndex {
@@ -99,7 +100,7 @@ impl BoxIndex {
 
     fn add(&mut self, outline: usize, (low, high): (DVec2, DVec2)) {
         let size = (high - low).max_element().max(f64::MIN_POSITIVE);
-        // the finest level whose cells are as large as the box, so that it lies in four of them at most
+        // the finest level with cells as large as the box, so that the box touches at most four of them
         let level = ((self.side / size).log2().floor().clamp(0.0, f64::from(LEVELS - 1))) as u8;
         let ([x0, y0], [x1, y1]) = (self.cell(level, low), self.cell(level, high));
         for x in x0..=x1.min(x0.saturating_add(1)) {
@@ -114,7 +115,7 @@ impl BoxIndex {
         [cells.x as u32, cells.y as u32]
     }
 
-    /// The outlines whose boxes may hold a point.
+    /// The outlines whose boxes may contain a point.
     fn around(&self, point: DVec2) -> impl Iterator<Item = usize> + '_ {
         (0..LEVELS).flat_map(move |level| {
             let [x, y] = self.cell(level, point);

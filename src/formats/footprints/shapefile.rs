@@ -1,4 +1,5 @@
-//! Shapefiles: polygons with the attributes and the reference system from the files beside them, and MultiPatch bodies.
+//! Reads shapefiles: polygons with the attributes and the reference system in accompanying files, and MultiPatch
+//! bodies.
 
 use super::dbase::AttributeTable;
 use super::flatbuffer::bytes_at;
@@ -12,14 +13,14 @@ use crate::message::{Message, message};
 use glam::{DVec2, DVec3};
 use std::path::{Path, PathBuf};
 
-/// The number that a shapefile begins with, and the bytes of its header.
+/// The first bytes of a shapefile, and the size of its header.
 const MAGIC: [u8; 4] = 9994_u32.to_be_bytes();
 const HEADER_BYTES: usize = 100;
 
-/// The most pairs of holes and outlines of one shape that are tried on each other.
+/// The most pairs of holes and outlines of a shape that are tested.
 const MOST_PAIRS: usize = 1_000_000;
 
-/// The longest description of a reference system that is believed.
+/// The longest description of a reference system that is read.
 const MOST_PRJ_BYTES: usize = 64 * 1024;
 
 /// Shapefiles, `.shp` with `.dbf` and `.prj`.
@@ -52,7 +53,7 @@ impl Format for Shapefile {
         }
         let table = attributes.as_deref().and_then(AttributeTable::of);
         if attributes.is_some() && table.is_none() {
-            let what = "has a .dbf beside it that is no table of dBASE, so that no attributes are read";
+            let what = "has a .dbf beside it that is not a dBASE table, so no attributes are read";
             footprints.notes.push(message![what; "export it again"]);
         }
         read(&bytes, table.as_ref(), &mut footprints)?;
@@ -110,23 +111,23 @@ fn add(
         0 => footprints.tally.add("features", "no geometry"),
         1 | 8 | 11 | 18 | 21 | 28 => footprints.tally.add("Point", NO_AREA),
         3 | 13 | 23 => footprints.tally.add("PolyLine", NO_AREA),
-        _ => footprints.tally.add("shapes", "of no type that shapefiles have"),
+        _ => footprints.tally.add("shapes", "their type is unknown"),
     }
     footprints.add(polygons, tags);
     Ok(())
 }
 
-/// The rings of a shape, or what else its points make.
+/// The rings of a shape, or its other parts.
 struct ShapeRings {
     points: Vec<DVec3>,
-    /// From where to where each part's points are.
+    /// The range of points of each part.
     parts: Vec<std::ops::Range<usize>>,
-    /// Of each part, for MultiPatch.
+    /// The kind of each part of a MultiPatch.
     kinds: Vec<u32>,
 }
 
 impl ShapeRings {
-    /// The parts of a record; none where it is shorter than its counts say.
+    /// Reads the parts of a record; `None` if it is shorter than its counts require.
     fn of(record: &[u8], has_z: bool, has_kinds: bool) -> Option<Self> {
         let count = |at: usize| bytes_at(record, at).map(|bytes| u32::from_le_bytes(bytes) as usize);
         let (parts, points) = (count(36)?, count(40)?);
@@ -157,11 +158,11 @@ impl ShapeRings {
         self.parts.get(part).and_then(|part| self.points.get(part.clone())).unwrap_or_default()
     }
 
-    /// The polygons: outlines run clockwise, holes against them.
+    /// The polygons: outlines are clockwise, holes counter-clockwise.
     fn polygons(&self, tally: &mut crate::formats::left_out::LeftOutTally) -> Vec<RingPolygon> {
         let flat = |ring: &[DVec3]| ring.iter().map(|point| [point.x, point.y]).collect::<Vec<_>>();
         let areas: Vec<f64> = (0..self.parts.len()).map(|part| ring_area(&flat(self.ring(part)))).collect();
-        // some programs write them the other way round: what encloses most is no hole
+        // some programs write them the other way round: the ring with the largest area is not a hole
         let largest = areas.iter().copied().reduce(|a, b| if b.abs() > a.abs() { b } else { a }).unwrap_or(0.0);
         let is_outer = |area: f64| area != 0.0 && (area < 0.0) == (largest < 0.0);
         let outer: Vec<usize> = (0..areas.len()).filter(|&part| is_outer(areas[part])).collect();
@@ -183,7 +184,7 @@ impl ShapeRings {
         polygons
     }
 
-    /// The body of a MultiPatch: strips, fans and rings, as they are.
+    /// The body of a MultiPatch: strips, fans and rings.
     fn body(&self, mut part: Part, cutter: &mut FaceCutter, footprints: &mut Footprints) -> Part {
         let mut at = 0;
         while at < self.parts.len() {
@@ -193,7 +194,7 @@ impl ShapeRings {
             let first = u32::try_from(part.positions.len()).unwrap_or(u32::MAX);
             let triangle = |corners: [usize; 3]| corners.map(|corner| first.saturating_add(corner as u32));
             if !ring.iter().all(|point| point.is_finite()) {
-                footprints.tally.add("patches", "a coordinate is no number");
+                footprints.tally.add("patches", "a coordinate is not a number");
                 continue;
             }
             match kind {
@@ -206,7 +207,7 @@ impl ShapeRings {
                         _ => triangle([0, n + 1, n + 2]),
                     }));
                 }
-                // an outer ring with the inner ones that follow, or a first ring with rings of unknown kind
+                // an outer ring with inner rings after it, or a first ring with rings of unknown kind
                 2..=5 => {
                     let mut polygon = RingPolygon::from_ring(ring);
                     let holes = if kind == 2 { 3 } else { 5 };
@@ -224,7 +225,7 @@ impl ShapeRings {
                         Err(uncut) => footprints.tally.add("patches", uncut.why()),
                     }
                 }
-                _ => footprints.tally.add("patches", "of no type that shapefiles have"),
+                _ => footprints.tally.add("patches", "their type is unknown"),
             }
         }
         part
@@ -237,17 +238,17 @@ impl RingPolygon {
     }
 }
 
-/// Whether a point lies within a ring, in plan.
+/// Whether a point lies in a ring, in plan.
 fn holds(ring: &[DVec3], point: DVec3) -> bool {
     let crosses = |pair: &[DVec3]| {
         let (a, b): (DVec2, DVec2) = (pair[0].truncate(), pair[1].truncate());
         (a.y > point.y) != (b.y > point.y) && point.x < a.x + (point.y - a.y) / (b.y - a.y) * (b.x - a.x)
     };
-    // a ring of a shapefile ends where it begins
+    // a ring of a shapefile ends at its first point
     ring.windows(2).filter(|pair| crosses(pair)).count() % 2 == 1
 }
 
-/// What the `.prj` beside the file says.
+/// Reads the reference system in the accompanying `.prj`.
 fn coordinates_of(path: &Path, footprints: &mut Footprints) -> Result<Coordinates, ModelFault> {
     let bytes = sidecar(path, "prj")?.unwrap_or_default();
     let text = String::from_utf8_lossy(crate::formats::whole::without_mark(&bytes));
@@ -255,9 +256,9 @@ fn coordinates_of(path: &Path, footprints: &mut Footprints) -> Result<Coordinate
         return Ok(Coordinates::Map(text.trim().to_owned()));
     }
     let what = if footprints.may_be_degrees() {
-        "has no .prj beside it, so that its coordinates are taken as metres, and they may be degrees"
+        "has no .prj beside it, so its coordinates are taken as metres, but they may be degrees"
     } else {
-        "has no .prj beside it, so that its coordinates are taken as metres"
+        "has no .prj beside it, so its coordinates are taken as metres"
     };
     footprints.notes.push(message![what; "copy all files of the shapefile, or name its reference system as crs"]);
     Ok(Coordinates::Local)

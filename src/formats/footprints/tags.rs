@@ -1,12 +1,12 @@
-//! The attributes of a footprint, by OpenStreetMap's keys, and lengths as people write them.
+//! The attributes of a footprint by OpenStreetMap's keys, and lengths as people write them.
 
-/// Metres that a storey is guessed to be high.
+/// The assumed height of a storey, metres.
 pub(super) const STOREY_M: f64 = 3.0;
 
-/// The highest that is believed: there is no building of a kilometre.
+/// The greatest accepted height, metres: no building is a kilometre high.
 const MOST_M: f64 = 1000.0;
 
-/// What a file says of one footprint, as it is written. Keys are OpenStreetMap's, with `:` or `_`, in any case.
+/// The attributes of a footprint as they are written. Keys are OpenStreetMap's, with `:` or `_`, in any case.
 #[derive(Clone, Debug, Default)]
 pub(super) struct FootprintTags {
     height: Option<String>,
@@ -19,13 +19,13 @@ pub(super) struct FootprintTags {
     location: Option<String>,
     street: Option<String>,
     house: Option<String>,
-    /// Its name for people.
+    /// Its usual name.
     pub name: Option<String>,
-    /// The file's own number of it.
+    /// The file's own number for it.
     pub id: Option<String>,
 }
 
-/// From where to where a block reaches, metres above the foot of its outline.
+/// The vertical extent of a block, metres above the foot of its outline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rise {
     pub bottom_m: f64,
@@ -35,7 +35,7 @@ pub(super) struct Rise {
     pub bottom_is_guessed: bool,
 }
 
-/// What says how high a block is.
+/// The source of a block's height.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum HeightSource {
     /// The height is in the file.
@@ -47,12 +47,12 @@ pub(super) enum HeightSource {
 }
 
 impl FootprintTags {
-    /// Whether a key is one of those that are read.
+    /// Whether a key is read.
     pub(super) fn wants(key: &str) -> bool {
         key.len() <= 32 && FootprintTags::default().slot(&normal(key)).is_some() || normal(key) == "other_tags"
     }
 
-    /// Takes what a key says; the first of several keys for the same counts.
+    /// Stores the value of a key. Of several keys for the same thing the first counts.
     pub(super) fn set(&mut self, key: &str, value: &str) {
         let (key, value) = (normal(key), value.trim());
         if key == "other_tags" {
@@ -64,7 +64,7 @@ impl FootprintTags {
         }
     }
 
-    /// What GDAL puts the other keys of OpenStreetMap into: `"key"=>"value","key"=>"value"`.
+    /// Reads the text in which GDAL puts OpenStreetMap's other keys: `"key"=>"value","key"=>"value"`.
     fn set_others(&mut self, text: &str) {
         let mut strings = QuotedStrings(text);
         while let (Some(key), Some(value)) = (strings.next(), strings.next()) {
@@ -74,7 +74,7 @@ impl FootprintTags {
         }
     }
 
-    /// Where a key is kept. dBASE cuts keys at ten letters.
+    /// Where the value of a key is stored. dBASE cuts keys to ten letters.
     fn slot(&mut self, key: &str) -> Option<&mut Option<String>> {
         Some(match key {
             "height" => &mut self.height,
@@ -109,12 +109,12 @@ impl FootprintTags {
         self.location.as_deref().is_some_and(|location| location.eq_ignore_ascii_case("underground"))
     }
 
-    /// What kind of building it is: `apartments`.
+    /// The kind of building, such as `apartments`.
     pub(super) fn kind(&self) -> Option<&str> {
         let kinds = [self.part.as_deref(), self.building.as_deref()].into_iter().flatten();
         let mut told = kinds.filter(|kind| !is_no(kind)).map(|kind| if is_yes(kind) { "building" } else { kind });
         let first = told.next();
-        // a part is mostly "yes", and its building something more
+        // a part usually says "yes", and its building something more specific
         if first == Some("building") { told.next().or(first) } else { first }
     }
 
@@ -123,7 +123,7 @@ impl FootprintTags {
         Some(self.house.as_ref().map_or_else(|| street.clone(), |house| format!("{street} {house}")))
     }
 
-    /// The height that the file says in a length or in storeys.
+    /// The height that the file gives as a length or in storeys.
     pub(super) fn height_m(&self) -> Option<(f64, HeightSource)> {
         let said = [&self.height, &self.building_height].into_iter().flatten().find_map(|text| height(text));
         let guessed =
@@ -131,21 +131,21 @@ impl FootprintTags {
         said.map(|metres| (metres, HeightSource::Said)).or_else(guessed)
     }
 
-    /// Whether a height is written, in a length or in storeys, that is none.
+    /// Whether there is a height, as a length or in storeys, that cannot be read.
     pub(super) fn has_unread_height(&self) -> bool {
         let mut written = [&self.height, &self.building_height].into_iter().flatten();
         let is_unread = |text: &String| levels(text).is_none();
         written.any(|text| height(text).is_none()) || self.levels.as_ref().is_some_and(is_unread)
     }
 
-    /// Whether a bottom is written that is none; it is taken as the ground.
+    /// Whether there is a bottom that cannot be read. It is taken as the ground.
     pub(super) fn has_unread_bottom(&self) -> bool {
         let is_storey = |text: &String| levels(text).is_some() || number(text) == Some(0.0);
         self.min_height.as_ref().is_some_and(|text| bottom(text).is_none())
             || self.min_level.as_ref().is_some_and(|text| !is_storey(text))
     }
 
-    /// From where to where it reaches; none where nobody says it.
+    /// The vertical extent; `None` without a height.
     pub(super) fn rise(&self, default_height_m: Option<f64>) -> Option<Rise> {
         let default = default_height_m.map(|metres| (metres, HeightSource::Default));
         let (top_m, from) = self.height_m().or(default)?;
@@ -169,22 +169,22 @@ fn is_yes(value: &str) -> bool {
     ["yes", "true", "1"].iter().any(|yes| value.eq_ignore_ascii_case(yes))
 }
 
-/// A height that a building can have.
+/// Reads a height that a building can have.
 fn height(text: &str) -> Option<f64> {
     metres(text).filter(|&metres| metres > 0.0 && metres <= MOST_M)
 }
 
-/// A bottom that a building can have above the ground.
+/// Reads a bottom that a building can have above the ground.
 fn bottom(text: &str) -> Option<f64> {
     metres(text).filter(|&metres| (0.0..=MOST_M).contains(&metres))
 }
 
-/// A count of storeys.
+/// Reads a number of storeys.
 fn levels(text: &str) -> Option<f64> {
     number(text).filter(|&levels| levels > 0.0 && levels * STOREY_M <= MOST_M)
 }
 
-/// A length as people write it, in metres: `12`, `12 m`, `12,5`, `40'`, `40'6"`, `40 ft`.
+/// Reads a length as people write it, in metres: `12`, `12 m`, `12,5`, `40'`, `40'6"`, `40 ft`.
 pub(super) fn metres(text: &str) -> Option<f64> {
     const FOOT_M: f64 = 0.3048;
     let text = text.trim().to_lowercase().replace(['′', '’'], "'").replace('″', "\"").replace("''", "\"");
@@ -203,7 +203,7 @@ pub(super) fn metres(text: &str) -> Option<f64> {
     }
 }
 
-/// A finite number, with a point or a comma before its decimals. `1,200` is none: it may be one or a thousand.
+/// Reads a finite number with a decimal point or comma. `1,200` is refused: it may be one or a thousand.
 fn number(text: &str) -> Option<f64> {
     let text = text.trim();
     if is_ambiguous(text) {
@@ -213,7 +213,7 @@ fn number(text: &str) -> Option<f64> {
     text.parse().ok().filter(|number: &f64| number.is_finite())
 }
 
-/// Whether a comma may stand before decimals or between thousands.
+/// Whether a comma may be a decimal or a thousands separator.
 fn is_ambiguous(text: &str) -> bool {
     let Some((whole, decimals)) = text.split_once(',') else { return false };
     let is_number = |text: &str| text.bytes().all(|letter| letter.is_ascii_digit());
@@ -221,7 +221,7 @@ fn is_ambiguous(text: &str) -> bool {
     may_be_thousands && is_number(whole) && decimals.len() == 3 && is_number(decimals)
 }
 
-/// The strings in quotes of a text; a backslash takes the next letter as it is.
+/// The quoted strings in a text; a backslash escapes the next character.
 struct QuotedStrings<'a>(&'a str);
 
 impl Iterator for QuotedStrings<'_> {

@@ -1,4 +1,4 @@
-//! Accessors → readers. Every type, index and byte range is checked once, before the first number is read.
+//! Makes readers of accessors. Every type, index and byte range is checked once, before the first number is read.
 
 use super::Fault;
 use super::buffers::Buffers;
@@ -8,14 +8,14 @@ use super::reader::{Reader, Sparse, StridedElements};
 use gltf::json;
 use gltf::json::validation::{Checked, USize64};
 
-/// The most elements an accessor may have without a view. Such elements cost the file nothing, so nothing but this
-/// bounds them; real ones are small.
+/// The most elements of an accessor without a view. Such elements take no bytes in the file, so only this limits them;
+/// real ones are small.
 const MAX_ZEROS: u64 = 1 << 20;
 
-/// The most sparse entries in all accessors. Many tables may lie in the same bytes, and each is checked.
+/// The most sparse entries in all accessors. Many tables may use the same bytes, and each is checked.
 const MAX_SPARSE_ENTRIES: usize = 100_000_000;
 
-/// The accessors of a file; each is checked when it is first asked for.
+/// The accessors of a file. Each is checked when it is first used.
 pub(super) struct Accessors<'a, 'file> {
     document: &'a Document,
     buffers: &'a Buffers<'file>,
@@ -23,7 +23,7 @@ pub(super) struct Accessors<'a, 'file> {
     sparse_entries: usize,
 }
 
-/// Where elements lie, as the file says it.
+/// The location of elements, as the file gives it.
 struct ElementSpan {
     view: usize,
     offset: u64,
@@ -36,7 +36,7 @@ impl<'a, 'file> Accessors<'a, 'file> {
         Self { document, buffers, known: vec![None; document.accessors.len()], sparse_entries: 0 }
     }
 
-    /// An accessor by its number; `user` says who asks.
+    /// An accessor by its index; `user` says what needs it.
     pub(super) fn get(&mut self, index: usize, user: impl Fn() -> String) -> Result<Reader<'a>, Fault> {
         let count = self.known.len();
         let (Some(known), Some(accessor)) = (self.known.get_mut(index), self.document.accessors.get(index)) else {
@@ -77,11 +77,11 @@ fn open<'a>(
     let offset = accessor.byte_offset.map_or(0, |offset| offset.0);
     let unpacked = buffers.unpacked_elements(index);
     let base = match accessor.buffer_view {
-        // a view that stands beside it is not read
+        // the view of a compressed primitive's accessor is not read
         _ if let Some(UnpackedElements { bytes, .. }) = unpacked => {
             let stride = element_bytes as usize;
             if bytes.len() as u64 != count.saturating_mul(element_bytes) {
-                return Err(Fault::of_accessor(index, "has another type in two primitives"));
+                return Err(Fault::of_accessor(index, "has different types in two primitives"));
             }
             Some(StridedElements { bytes, stride })
         }
@@ -119,7 +119,7 @@ fn open<'a>(
     })
 }
 
-/// The bytes of a span, from its first element on; all of its elements lie within the view and the buffer.
+/// The bytes of a span, from its first element on. All of its elements must lie within the view and the buffer.
 fn strided<'a>(
     document: &Document,
     buffers: &'a Buffers,
@@ -174,7 +174,7 @@ fn strided<'a>(
     }
 }
 
-/// A count that memory could hold.
+/// A count that fits in memory.
 fn length(accessor: usize, count: u64) -> Result<usize, Fault> {
     usize::try_from(count).map_err(|_| Fault::of_accessor(accessor, format!("has {count} elements")))
 }

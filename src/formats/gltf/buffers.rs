@@ -1,8 +1,8 @@
-//! Buffers → bytes: the binary chunk of a `.glb`, base64 in the JSON, or a file beside the model.
+//! Reads the bytes of buffers: the binary chunk of a `.glb`, base64 in the JSON, or a file beside the model.
 //!
 //! A buffer is read when the first accessor needs it, so one that only holds textures may be missing. A path may not
-//! leave the model's folder, nor does a link in it, and nothing is fetched from the web: a model must not be able to read
-//! what its reader does not mean to show.
+//! leave the model's folder, nor may a link in it, and nothing is fetched from the web: a model must not make the
+//! program read files that its user does not mean to share.
 
 use super::document::Document;
 use super::draco::UnpackedElements;
@@ -20,7 +20,7 @@ use std::ops::Range;
 use std::path::{Component, Path, PathBuf};
 use std::rc::Rc;
 
-/// Exporters do not agree on whether to pad.
+/// Exporters differ in whether they pad.
 const BASE64: GeneralPurpose = GeneralPurpose::new(
     &STANDARD,
     GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent),
@@ -32,11 +32,11 @@ pub(super) struct Buffers<'a> {
     binary: Option<&'a [u8]>,
     folder: &'a Path,
     loaded: Vec<OnceCell<Bytes<'a>>>,
-    /// Of buffer views that are compressed, what they unpack to.
+    /// The unpacked bytes of compressed buffer views.
     views: Vec<OnceCell<Vec<u8>>>,
-    /// Of accessors whose primitive is compressed, what they unpack to.
+    /// The unpacked elements of the accessors of compressed primitives.
     elements: BTreeMap<usize, UnpackedElements>,
-    /// Many buffers may name one file, which must not cost its memory many times.
+    /// Several buffers may refer to one file, which is kept in memory once.
     files: RefCell<BTreeMap<PathBuf, Rc<[u8]>>>,
 }
 
@@ -46,7 +46,7 @@ enum Bytes<'a> {
 }
 
 impl<'a> Buffers<'a> {
-    /// `binary` is the `.glb`'s chunk, `folder` where the model file lies.
+    /// `binary` is the `.glb`'s chunk, `folder` the model file's folder.
     pub(super) fn new(document: &'a Document, binary: Option<&'a [u8]>, folder: &'a Path) -> Self {
         Self {
             document,
@@ -59,7 +59,7 @@ impl<'a> Buffers<'a> {
         }
     }
 
-    /// Unpacks the primitives of a mesh that are compressed; before that their accessors have no bytes.
+    /// Unpacks the compressed primitives of a mesh. Before that, their accessors have no bytes.
     pub(super) fn unpack(&mut self, mesh: usize) -> Result<(), Fault> {
         let document = self.document;
         let primitives = document.meshes.get(mesh).map_or(&[][..], |mesh| &mesh.primitives);
@@ -73,7 +73,7 @@ impl<'a> Buffers<'a> {
         Ok(())
     }
 
-    /// All bytes of a view that is stored plainly.
+    /// All bytes of an uncompressed view.
     pub(super) fn view_bytes(&self, view: Option<usize>, user: impl Fn() -> String) -> Result<&[u8], Fault> {
         let count = self.document.buffer_views.len();
         let found = view.and_then(|index| Some((index, self.document.buffer_views.get(index)?)));
@@ -97,12 +97,12 @@ impl<'a> Buffers<'a> {
         })
     }
 
-    /// What an accessor's elements are unpacked to, where its primitive is compressed.
+    /// The unpacked elements of an accessor, if its primitive is compressed.
     pub(super) fn unpacked_elements(&self, accessor: usize) -> Option<&UnpackedElements> {
         self.elements.get(&accessor)
     }
 
-    /// What a view is unpacked to, where it is compressed and not stored plainly, too.
+    /// The unpacked bytes of a view, if it is compressed and not also stored uncompressed.
     pub(super) fn unpacked_view(&self, index: usize) -> Result<Option<&[u8]>, Fault> {
         let Some(compressed) = CompressedView::of(self.document, index) else { return Ok(None) };
         let plain = self.document.buffer_views.get(index).map(|view| view.buffer.value());
@@ -117,7 +117,7 @@ impl<'a> Buffers<'a> {
         Ok(cell.get().map(Vec::as_slice))
     }
 
-    /// All bytes there are, which may be more or fewer than the file says.
+    /// All available bytes, which may be more or fewer than the file says.
     pub(super) fn get(&self, index: usize, user: &str) -> Result<&[u8], Fault> {
         let Some(cell) = self.loaded.get(index) else {
             return Err(Fault::NoSuch { user: user.into(), what: "buffer", index, count: self.loaded.len() });
@@ -135,7 +135,7 @@ impl<'a> Buffers<'a> {
         })
     }
 
-    /// Whether the buffer only stands for what compressed views unpack to.
+    /// Whether the buffer is only a placeholder for unpacked views.
     fn is_placeholder(&self, index: usize) -> bool {
         let buffer = self.document.buffers.get(index);
         let extensions = buffer.and_then(|buffer| buffer.extensions.as_ref());
@@ -143,7 +143,7 @@ impl<'a> Buffers<'a> {
             let mut others = found.others.iter();
             others.any(|(name, value)| name.ends_with("_meshopt_compression") && value["fallback"] == true)
         });
-        // the first one may be the container's
+        // the first buffer may be the container's chunk
         buffer.is_some_and(|buffer| buffer.uri.is_none()) && (is_said || index > 0 || self.binary.is_none())
     }
 
@@ -171,11 +171,11 @@ impl<'a> Buffers<'a> {
         let Some(relative) = percent_decode(uri) else {
             return Err(fault(index, format!("has the address '{address}', which is not UTF-8: export it again")));
         };
-        // Also on systems where it is no separator: a file means the same everywhere.
+        // also on systems where it is not a separator, so that a file means the same everywhere
         let inside = |part| matches!(part, Component::Normal(_) | Component::CurDir);
         if relative.contains('\\') {
             let what = format!(
-                "lies at '{address}', and folders in an address are parted by /, not by a backslash: export it again"
+                "lies at '{address}', but folders in an address are separated by /, not by a backslash: export it again"
             );
             return Err(fault(index, what));
         }
@@ -216,7 +216,7 @@ fn strip_data_scheme(uri: &str) -> Option<&str> {
     scheme.eq_ignore_ascii_case("data:").then_some(data)
 }
 
-/// The bytes of `type;base64,…`.
+/// Decodes `type;base64,…`.
 fn decode(index: usize, data: &str) -> Result<Vec<u8>, Fault> {
     let Some((kind, text)) = data.split_once(',') else {
         return Err(fault(index, "is a data address without data: export it again"));
@@ -228,7 +228,7 @@ fn decode(index: usize, data: &str) -> Result<Vec<u8>, Fault> {
     bytes.map_err(|error| fault(index, format!("is damaged base64 ({error}): export it again")))
 }
 
-/// Whether an address begins with a scheme, as in `https:`; one letter is a drive, which is refused alike.
+/// Whether an address begins with a scheme such as `https:`. A single letter is a drive, which is refused, too.
 pub(super) fn has_scheme(uri: &str) -> bool {
     let Some((scheme, _)) = uri.split_once(':') else {
         return false;
@@ -237,7 +237,7 @@ pub(super) fn has_scheme(uri: &str) -> bool {
     scheme.starts_with(|first: char| first.is_ascii_alphabetic()) && scheme.bytes().all(letters)
 }
 
-/// `%20` → a blank, and so on; a `%` without two digits stands for itself.
+/// Decodes `%20` and the like; a `%` without two digits stays as it is.
 pub(in crate::formats) fn percent_decode(uri: &str) -> Option<String> {
     let mut bytes = Vec::with_capacity(uri.len());
     let mut rest = uri.as_bytes();
@@ -259,7 +259,7 @@ pub(in crate::formats) fn percent_decode(uri: &str) -> Option<String> {
     String::from_utf8(bytes).ok()
 }
 
-/// An address that fits into a message.
+/// Shortens an address for a message.
 fn shorten(uri: &str) -> String {
     let mut text: String = uri.chars().take(100).collect();
     if text.len() < uri.len() {

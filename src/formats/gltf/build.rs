@@ -1,4 +1,4 @@
-//! Placed nodes and their meshes → parts in the world, and which of their materials are see-through.
+//! Makes parts in the world from placed nodes and their meshes, and lists their see-through materials.
 
 use super::accessor::Accessors;
 use super::buffers::Buffers;
@@ -16,26 +16,26 @@ use glam::DAffine3;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// The most numbers that may move the triangles of a model, each triangle's morph targets and joints counted: they cost
+/// The most values that may move the triangles of a model, counting each triangle's morph targets and joints. They take
 /// no memory, but time.
 const MAX_MOVES: u64 = 1_000_000_000;
 
-/// A vertex that the part does not have yet.
+/// The number of a vertex that the part does not have yet.
 const ABSENT: u32 = u32::MAX;
 
-/// What stands there.
+/// The parts of a scene.
 pub(super) struct BuiltScene {
     /// One part per node and material, in the order of the scene.
     pub parts: Vec<Part>,
     /// The kind of each part, if one of them is not a building.
     pub kinds: Vec<PartKind>,
-    /// Of each part whether its heights are measured from the ground, if those of one are.
+    /// For each part, whether its heights are measured from the ground, if any part's are.
     pub from_ground: Vec<bool>,
     /// The see-through materials, each name once.
     pub see_through: Vec<SeeThrough>,
 }
 
-/// What a scene costs so far, held to what it may.
+/// The work for a scene so far, to keep it within limits.
 #[derive(Default)]
 struct SceneWork {
     triangles: u64,
@@ -57,7 +57,7 @@ impl SceneWork {
     }
 }
 
-/// Makes the parts of placed nodes; there may be none.
+/// Makes the parts of placed nodes; the result may be empty.
 pub(super) fn build(
     document: &Document,
     buffers: &Buffers,
@@ -66,7 +66,7 @@ pub(super) fn build(
     told_step: f64,
 ) -> Result<BuiltScene, Fault> {
     let mut accessors = Accessors::new(document, buffers);
-    // Many nodes may share a mesh; what it says is read once.
+    // Several nodes may share a mesh, which is read once.
     let mut known: Vec<Option<MeshTriangles>> = document.meshes.iter().map(|_| None).collect();
     let mut skins = Skins::new(document);
     let mut builder = Builder { told_step, ..Builder::default() };
@@ -112,7 +112,7 @@ pub(super) fn build(
     Ok(built.finish())
 }
 
-/// What is built so far.
+/// The parts so far.
 #[derive(Default)]
 struct SceneParts {
     parts: Vec<Part>,
@@ -122,7 +122,7 @@ struct SceneParts {
 }
 
 impl SceneParts {
-    /// Adds a part; `faded` is its material where light passes that.
+    /// Adds a part; `faded` is its material if that is see-through.
     fn add(&mut self, part: Part, kind: PartKind, faded: Option<&String>) -> Result<(), Fault> {
         if let Some(material) = faded {
             self.see_through.entry(material.clone()).or_default().push(self.parts.len());
@@ -143,12 +143,12 @@ impl SceneParts {
     }
 }
 
-/// The names that this program wrote, and the material that another program has given a part since.
+/// The names that this program wrote into the file, without a material that another program has replaced since.
 fn since_written(ours: Vec<String>, group: &MaterialGroup, material: &str, node: &str) -> Vec<String> {
     aliases(ours, group.material.map(|_| material).filter(|given| *given != node))
 }
 
-/// The names by which a part may be meant, each once.
+/// The names that select a part, each once.
 fn aliases<'a>(mut aliases: Vec<String>, further: impl IntoIterator<Item = &'a str>) -> Vec<String> {
     for alias in further {
         if !aliases.iter().any(|known| known == alias) {
@@ -158,25 +158,25 @@ fn aliases<'a>(mut aliases: Vec<String>, further: impl IntoIterator<Item = &'a s
     aliases
 }
 
-/// Makes parts; holds what is reused between them.
+/// Makes parts, with buffers that are reused.
 #[derive(Default)]
 struct Builder {
-    /// Per vertex of the primitive at hand its number in the part; all [`ABSENT`] between primitives.
+    /// For each vertex of the current primitive its index in the part; all [`ABSENT`] between primitives.
     ///
-    /// Many primitives may each use a few of many shared vertices: only those are read, and only those are forgotten.
+    /// Many primitives may each use a few of many shared vertices. Only those are read, and only those are reset.
     numbers: Vec<u32>,
-    /// Vertices in the order of their numbers.
+    /// The vertices in the order of their new indices.
     used: Vec<u32>,
-    /// Coarser steps of numbers get a note.
+    /// Steps coarser than this get a note.
     told_step: f64,
 }
 
-/// Triangles that are read in one go.
+/// The number of triangles that are read at once.
 const AT_ONCE: usize = 1 << 14;
 
 impl Builder {
-    /// All instances of a group, and the feature of each corner where something names them; there is a pose for each of its
-    /// primitives.
+    /// Adds all instances of a group, with the feature of each corner if features have names. There is a pose for each
+    /// of its primitives.
     fn part(
         &mut self,
         group: &MaterialGroup,
@@ -200,7 +200,7 @@ impl Builder {
         Ok((part, keys))
     }
 
-    /// Adds a primitive's triangles, and the vertices that they use, which stay listed.
+    /// Adds a primitive's triangles and the vertices that they use. `used` lists those afterwards.
     fn append(
         &mut self,
         part: &mut Part,
@@ -212,7 +212,7 @@ impl Builder {
         if self.numbers.len() < primitive.positions.count {
             self.numbers.resize(primitive.positions.count, ABSENT);
         }
-        // Fits: no part has more than three vertices a triangle.
+        // cannot overflow: a part has at most three vertices per triangle
         let first = part.positions.len() as u32;
         part.triangles.reserve(primitive.triangles);
         for begin in (0..primitive.triangles).step_by(AT_ONCE) {
@@ -249,7 +249,7 @@ impl Builder {
         Ok(())
     }
 
-    /// A vertex's number in the part, to which the primitive's are added from `first` on.
+    /// A vertex's index in the part; the primitive's vertices are added from `first` on.
     fn number(&mut self, vertex: u32, first: u32) -> u32 {
         let Some(number) = self.numbers.get_mut(vertex as usize) else {
             return first; // `PrimitiveTriangles::corners` has checked the vertex.

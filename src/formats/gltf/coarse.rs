@@ -1,12 +1,12 @@
-//! How coarsely the corners' numbers are stored, where that is coarse enough for a note.
+//! Measures how coarsely corners are stored, if that is coarse enough for a note.
 
 use super::reader::Reader;
 use crate::mesh::CornerPrecision;
 use glam::{DAffine3, DVec3};
 use gltf::json::accessor::ComponentType;
 
-/// Which of some corners are written coarsely: those of the vertices `used`, which stand at `points` and are numbered from
-/// `first` on. Steps are in the model's units; those up to `told_step` are not told.
+/// Notes which corners are stored coarsely: those of the vertices `used`, at `points`, with indices from `first` on.
+/// Steps are in the model's units; those up to `told_step` are ignored.
 pub(super) fn corners(
     positions: &Reader,
     (used, first): (&[u32], u32),
@@ -21,7 +21,7 @@ pub(super) fn corners(
         let all = CornerPrecision { corners: first..first + used.len() as u32, step_m, is_float: false };
         return if step_m > told_step { vec![all] } else { Vec::new() };
     }
-    // where the corners stand shows how large the numbers can be at most; nearly always that is enough
+    // the corners' positions bound the size of the stored numbers; that nearly always suffices
     let reach = points.iter().fold(DVec3::ZERO, |reach, point| reach.max((point - model_from_mesh.translation).abs()));
     let mesh_from_model = matrix.inverse();
     let largest = [mesh_from_model.x_axis, mesh_from_model.y_axis, mesh_from_model.z_axis]
@@ -44,14 +44,14 @@ pub(super) fn corners(
     found
 }
 
-/// From a single-precision number to the next larger one.
+/// The distance from a single-precision number to the next larger one.
 fn step(number: f64) -> f64 {
     let size = number.abs() as f32;
     f64::from(size.next_up()) - f64::from(size)
 }
 
 impl Reader<'_> {
-    /// The step between neighbouring numbers where they are whole ones, stand for parts of 1, or were rounded.
+    /// The step between neighbouring values if they are integers, normalised integers, or were rounded.
     fn whole_step(&self) -> Option<f64> {
         if self.rounded.is_some() {
             return self.rounded;

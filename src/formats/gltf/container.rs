@@ -1,30 +1,29 @@
-//! The file's bytes → its JSON and, in a `.glb`, its binary chunk. The content decides which it is, not the file's
-//! name.
+//! Finds the JSON in a file and, in a `.glb`, its binary chunk. The contents decide which it is, not the file's name.
 
 use super::Fault;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-/// As much as the 32-bit lengths of a `.glb` can say.
+/// The greatest length that a `.glb`'s 32-bit fields can hold.
 const MAX_FILE_BYTES: u64 = u32::MAX as u64;
 
-/// Bytes in a `.glb` header: magic, version, length.
+/// The bytes of a `.glb` header: magic, version, length.
 const HEADER: usize = 12;
-/// Bytes before a chunk's data: length, type.
+/// The bytes before a chunk's data: length, type.
 const CHUNK_HEADER: usize = 8;
 
 /// The two halves of a model file.
 pub(super) struct Container<'a> {
     /// The JSON.
     pub json: &'a [u8],
-    /// The content of buffer 0 in a `.glb`.
+    /// The contents of buffer 0 in a `.glb`.
     pub binary: Option<&'a [u8]>,
 }
 
 /// Reads a whole regular file of at most 4 GiB.
 pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, Fault> {
-    // Asked before opening: opening a pipe would wait for its writer.
+    // checked before opening: opening a pipe would wait for its writer
     let metadata = std::fs::metadata(path).map_err(Fault::Unreadable)?;
     if !metadata.is_file() {
         return Err(Fault::NotAFile);
@@ -38,7 +37,7 @@ pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, Fault> {
     Ok(bytes)
 }
 
-/// The JSON of a model's file alone, without what else a `.glb` holds; none where that cannot be read.
+/// Only the JSON of a model's file, without a `.glb`'s binary chunk; `None` if it cannot be read.
 pub(super) fn json_of_file(path: &Path) -> Option<Vec<u8>> {
     if !path.is_file() {
         return None;
@@ -61,7 +60,7 @@ pub(super) fn open(bytes: &[u8]) -> Result<Container<'_>, Fault> {
     if bytes.starts_with(b"glTF") {
         return open_binary(bytes);
     }
-    // glTF forbids a byte order mark; some editors write one all the same.
+    // glTF forbids a byte-order mark, but some editors write one
     let text = without_mark(bytes);
     if text.trim_ascii_start().starts_with(b"{") {
         return Ok(Container { json: text, binary: None });
@@ -76,12 +75,9 @@ fn open_binary(bytes: &[u8]) -> Result<Container<'_>, Fault> {
     if version != 2 {
         return Err(Fault::Version(format!("{version}.0")));
     }
-    // What follows the stated length is not the container's.
+    // bytes after the stated length do not belong to the container
     let Some(body) = bytes.get(HEADER..length) else {
-        return Err(Fault::Container(format!(
-            "its header promises {length} bytes, and the file holds {}",
-            bytes.len()
-        )));
+        return Err(Fault::Container(format!("its header states {length} bytes, but the file has {}", bytes.len())));
     };
     let first = split_chunk(body)?;
     if &first.kind != b"JSON" {
@@ -89,7 +85,7 @@ fn open_binary(bytes: &[u8]) -> Result<Container<'_>, Fault> {
     }
     let (mut binary, mut rest) = (None, first.rest);
     while binary.is_none() && !rest.is_empty() {
-        // Chunks of unknown kinds are to be skipped.
+        // chunks of unknown types must be skipped
         let chunk = split_chunk(rest)?;
         binary = (&chunk.kind == b"BIN\0").then_some(chunk.data);
         rest = chunk.rest;
@@ -97,7 +93,7 @@ fn open_binary(bytes: &[u8]) -> Result<Container<'_>, Fault> {
     Ok(Container { json: json_alone(first.data), binary })
 }
 
-/// Without a byte order mark, and without zeros, with which some writers pad where blanks are asked for.
+/// Removes a byte-order mark, and trailing zeros, with which some writers pad instead of spaces.
 fn json_alone(bytes: &[u8]) -> &[u8] {
     let json = without_mark(bytes);
     let end = json.iter().rposition(|&byte| byte != 0).map_or(0, |last| last + 1);
@@ -107,7 +103,7 @@ fn json_alone(bytes: &[u8]) -> &[u8] {
 struct Chunk<'a> {
     kind: [u8; 4],
     data: &'a [u8],
-    /// The bytes behind it.
+    /// The bytes after it.
     rest: &'a [u8],
 }
 
@@ -117,7 +113,7 @@ fn split_chunk(bytes: &[u8]) -> Result<Chunk<'_>, Fault> {
     };
     let body = bytes.get(CHUNK_HEADER..).unwrap_or_default();
     let Some((data, rest)) = body.split_at_checked(length) else {
-        return Err(Fault::Container(format!("a chunk promises {length} bytes, and {} are left", body.len())));
+        return Err(Fault::Container(format!("a chunk states {length} bytes, but {} are left", body.len())));
     };
     Ok(Chunk { kind: *kind, data, rest })
 }

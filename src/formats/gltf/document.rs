@@ -1,8 +1,8 @@
-//! The JSON → the structure of what casts. Textures, images, cameras and animations are not parsed.
+//! Parses the JSON into the structure of what casts. Textures, images, cameras and animations are not parsed.
 //!
-//! `gltf::json` reads meshes, accessors, views and buffers. Nodes are our own, since it keeps transforms in `f32`,
-//! whose steps are 25 cm at map coordinates far from the origin. Scenes and materials are our own, since it refuses
-//! scenes without nodes and broken textures.
+//! `gltf::json` reads meshes, accessors, views and buffers. Nodes are our own types, since it keeps transforms in
+//! `f32`, whose steps are 25 cm at map coordinates far from the origin. Scenes and materials are our own types, since
+//! it refuses scenes without nodes and broken textures.
 
 use super::Fault;
 use super::material::Material;
@@ -14,11 +14,11 @@ use serde_json::Value;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-/// Bytes in a name; every component carries the names of its node, mesh and material.
+/// The longest name, bytes. Every component carries the names of its node, mesh and material.
 const MAX_NAME_BYTES: usize = 1000;
 
-/// Extensions about how surfaces look, sound, are described or answer a hand, by how their names begin: whatever they
-/// say, the triangles stay the same.
+/// Prefixes of extensions for looks, sounds, descriptions and interaction. Whatever they contain, the triangles stay
+/// the same.
 const HARMLESS: [&str; 25] = [
     "KHR_materials_",
     "EXT_materials_",
@@ -57,7 +57,7 @@ const READ: [&str; 6] = [
     "KHR_meshopt_compression",
 ];
 
-/// What a glTF file says about geometry. No index in it is checked yet.
+/// The geometry in a glTF file. Indices are not checked yet.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Document {
@@ -81,12 +81,12 @@ pub(super) struct Document {
     pub buffer_views: Vec<View>,
     #[serde(default)]
     pub buffers: Vec<Buffer>,
-    /// Of the whole file.
+    /// The extensions of the whole file.
     #[serde(default)]
     extensions: Value,
 }
 
-/// What every version of glTF says; the rest of glTF 1.0 has another shape.
+/// The part that all versions of glTF share; the rest of glTF 1.0 has a different structure.
 #[derive(Deserialize)]
 struct Head {
     asset: Asset,
@@ -107,7 +107,7 @@ pub(super) struct DocumentScene {
     pub own: OwnScene,
 }
 
-/// Which nodes move the vertices of a mesh.
+/// The nodes that move the vertices of a mesh.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Skin {
@@ -125,7 +125,7 @@ pub(super) struct Node {
     weights: Option<Vec<f32>>,
     #[serde(default)]
     pub children: Vec<usize>,
-    /// The matrix, column by column.
+    /// The matrix in column-major order.
     pub matrix: Option<Box<[f64; 16]>>,
     pub translation: Option<[f64; 3]>,
     /// The rotation as a quaternion x, y, z, w.
@@ -145,20 +145,20 @@ pub(super) struct NodeExtensions {
     visibility: Option<Visibility>,
 }
 
-/// Whether a node is there, with all below it.
+/// Whether a node is visible, with everything below it.
 #[derive(Deserialize)]
 struct Visibility {
     visible: Option<bool>,
 }
 
 impl Node {
-    /// Whether it hides neither itself nor what is below it.
+    /// Whether it shows itself and what is below it.
     pub(super) fn is_visible(&self) -> bool {
         self.extensions.visibility.as_ref().and_then(|visibility| visibility.visible).unwrap_or(true)
     }
 }
 
-/// Where copies of a node's mesh stand.
+/// The transforms of copies of a node's mesh.
 #[derive(Deserialize)]
 pub(super) struct Instancing {
     /// The accessors, by the names of their attributes.
@@ -167,7 +167,7 @@ pub(super) struct Instancing {
 
 impl Document {
     /// Parses the JSON of a file, and checks that its version and extensions can be read. `applied` are extensions that
-    /// whoever asks applies itself.
+    /// the caller applies itself.
     pub(super) fn parse(json: &[u8], applied: &[&str]) -> Result<Self, Fault> {
         let head: Head = serde_json::from_slice(json).map_err(Fault::Json)?;
         let version = &head.asset.version;
@@ -190,12 +190,12 @@ impl Document {
         Ok(())
     }
 
-    /// What an extension says of the whole file.
+    /// The data of an extension for the whole file.
     pub(super) fn extension(&self, name: &str) -> Option<&Value> {
         self.extensions.get(name)
     }
 
-    /// The extensions that the file requires and that nothing is read of.
+    /// The extensions that the file requires but that are not read.
     pub(super) fn read_past(&self) -> impl Iterator<Item = &str> {
         self.extensions_required.iter().map(String::as_str).filter(|name| is_harmless(name))
     }
@@ -216,7 +216,7 @@ impl Document {
         check_names("material", materials)
     }
 
-    /// Brings all names into one normal form, so that they are the same in each file that spells them.
+    /// Brings all names into one normal form, so that a name is the same in each file.
     fn compose_names(&mut self) {
         let scenes = self.scenes.iter_mut().map(|scene| &mut scene.name);
         let nodes = self.nodes.iter_mut().map(|node| &mut node.name);
@@ -229,29 +229,29 @@ impl Document {
         }
     }
 
-    /// A scene's name, where it has one.
+    /// A scene's name, if it has one.
     pub(super) fn scene_name(&self, scene: usize) -> Option<&str> {
         given(&self.scenes.get(scene)?.name)
     }
 
-    /// A node's name, otherwise its mesh's, otherwise its number.
+    /// A node's name, otherwise its mesh's, otherwise its index.
     pub(super) fn node_name(&self, node: usize) -> String {
         let of_mesh = || self.mesh_name(self.nodes.get(node)?.mesh?);
         let own = self.nodes.get(node).and_then(|node| given(&node.name));
         own.or_else(of_mesh).map_or_else(|| format!("node {node}"), str::to_owned)
     }
 
-    /// A mesh's name, where it has one.
+    /// A mesh's name, if it has one.
     pub(super) fn mesh_name(&self, mesh: usize) -> Option<&str> {
         given(&self.meshes.get(mesh)?.name)
     }
 
-    /// Whether light passes a material; see [`Material::is_see_through`].
+    /// Whether a material is see-through; see [`Material::is_see_through`].
     pub(super) fn is_see_through(&self, material: usize, has_faded_vertices: bool) -> bool {
         self.materials.get(material).is_some_and(|material| material.is_see_through(has_faded_vertices))
     }
 
-    /// A material's name, otherwise its number; `default` where a primitive names none.
+    /// A material's name, otherwise its index; `default` for a primitive without a material.
     pub(super) fn material_name(&self, material: Option<usize>) -> String {
         let Some(index) = material else {
             return "default".into();
@@ -261,7 +261,7 @@ impl Document {
     }
 }
 
-/// A text, where it is one: a file is not refused for how its scenes are called.
+/// A value if it is text: a file is not refused for a malformed scene name.
 fn text<'de, D: Deserializer<'de>>(from: D) -> Result<Option<String>, D::Error> {
     match Value::deserialize(from)? {
         Value::String(text) => Ok(Some(text)),
@@ -273,7 +273,7 @@ fn is_harmless(extension: &str) -> bool {
     HARMLESS.iter().any(|prefix| extension.starts_with(prefix))
 }
 
-/// An empty name is none.
+/// Treats an empty name as missing.
 fn given(name: &Option<String>) -> Option<&str> {
     name.as_deref().filter(|name| !name.trim().is_empty())
 }

@@ -1,6 +1,6 @@
-//! KHR_draco_mesh_compression: a primitive's compressed bytes → the elements of its accessors.
+//! KHR_draco_mesh_compression: decodes a primitive's compressed bytes into the elements of its accessors.
 //!
-//! The decoder is `draco-core`, which is Rust alone. Its input may be anybody's bytes, so a panic in it is caught.
+//! The decoder is `draco-core`, which is pure Rust. Its input is untrusted, so a panic in it is caught.
 
 use super::document::Document;
 use super::feature_attributes::names_features;
@@ -16,14 +16,14 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 const DRACO: &str = "KHR_draco_mesh_compression";
 
-/// The elements of an accessor, one behind the other.
+/// The elements of an accessor, one after another.
 pub(super) struct UnpackedElements {
     pub bytes: Vec<u8>,
-    /// The step from one number to the next, if they were rounded before they were packed.
+    /// The step between neighbouring values, if they were quantised.
     pub step: Option<f64>,
 }
 
-/// What a primitive says of its compression; none where it has none, or where it is stored plainly, too.
+/// A primitive's compression; `None` if it is not compressed, or is also stored uncompressed.
 pub(super) fn compression<'a>(document: &Document, primitive: &'a Primitive) -> Option<&'a Value> {
     let said = primitive.extensions.as_ref()?.others.get(DRACO)?;
     let is_stored = |accessor: usize| {
@@ -36,18 +36,18 @@ pub(super) fn compression<'a>(document: &Document, primitive: &'a Primitive) -> 
     (!is_plain).then_some(said)
 }
 
-/// Whether anything has to be unpacked.
+/// Whether the file has compressed primitives.
 pub(super) fn is_used(document: &Document) -> bool {
     let mut primitives = document.meshes.iter().flat_map(|mesh| &mesh.primitives);
     primitives.any(|primitive| compression(document, primitive).is_some())
 }
 
-/// The view that holds a primitive's bytes.
+/// The view with a primitive's compressed bytes.
 pub(super) fn view(said: &Value) -> Option<usize> {
     usize::try_from(said.get("bufferView")?.as_u64()?).ok()
 }
 
-/// Unpacks what moves the vertices of a primitive, or says whose they are, and its indices.
+/// Unpacks a primitive's indices, and the attributes that move its vertices or identify their features.
 pub(super) fn unpack(
     document: &Document,
     (mesh, number): (usize, usize),
@@ -57,7 +57,7 @@ pub(super) fn unpack(
 ) -> Result<(), Fault> {
     let fault = |problem: String| Fault::of_primitive(mesh, number, format!("{problem} (Draco)"));
     if primitive.mode != Checked::Valid(Mode::Triangles) {
-        return Err(fault("is compressed, and is no list of triangles".into()));
+        return Err(fault("is compressed, and is not a list of triangles".into()));
     }
     let decoded = decode(source).map_err(|why| fault(format!("cannot be unpacked: {why}")))?;
     let points = decoded.num_points();
@@ -67,17 +67,17 @@ pub(super) fn unpack(
             Checked::Valid(Semantic::Joints(set)) => format!("JOINTS_{set}"),
             Checked::Valid(Semantic::Weights(set)) => format!("WEIGHTS_{set}"),
             Checked::Valid(Semantic::Extras(name)) if names_features(name) => format!("_{name}"),
-            // nothing else moves a vertex, or says whose it is
+            // no other attribute affects positions or features
             _ => continue,
         };
         let id = said.get("attributes").and_then(|ids| ids.get(&name)?.as_u64());
         let Some(id) = id.and_then(|id| u32::try_from(id).ok()) else { continue };
         let index = accessor.value();
         let Some((component, shape)) = element(document, index, points) else {
-            return Err(fault(format!("unpacks to {points} vertices, and accessor {index} says otherwise")));
+            return Err(fault(format!("unpacks to {points} vertices, but accessor {index} has a different number")));
         };
         let Some(attribute) = decoded.attribute_by_unique_id(id) else {
-            return Err(fault(format!("has no {name} among what it unpacks to")));
+            return Err(fault(format!("has no {name} in its unpacked attributes")));
         };
         let numbers = attribute.read_f32s(points, shape.multiplicity());
         let step = if name == "POSITION" { rounding(source, &numbers) } else { None };
@@ -86,7 +86,10 @@ pub(super) fn unpack(
     let Some(indices) = primitive.indices.map(|indices| indices.value()) else { return Ok(()) };
     let corners: Vec<u32> = decoded.faces().iter().flatten().map(|point| point.0).collect();
     let Some((component, _)) = element(document, indices, corners.len()) else {
-        return Err(fault(format!("unpacks to {} corners, and accessor {indices} says otherwise", corners.len())));
+        return Err(fault(format!(
+            "unpacks to {} corners, but accessor {indices} has a different number",
+            corners.len()
+        )));
     };
     let bytes = match component {
         ComponentType::U8 => corners.iter().map(|&corner| corner as u8).collect(),
@@ -110,7 +113,7 @@ fn decode(source: &[u8]) -> Result<Mesh, String> {
     }
 }
 
-/// The type of an accessor's elements, where there are as many as `count`.
+/// The type of an accessor's elements, if it has `count` of them.
 fn element(document: &Document, accessor: usize, count: usize) -> Option<(ComponentType, Type)> {
     let accessor = document.accessors.get(accessor)?;
     let (Checked::Valid(component), Checked::Valid(shape)) = (&accessor.component_type, &accessor.type_) else {
@@ -132,9 +135,9 @@ fn stored(numbers: &[f32], component: ComponentType) -> Vec<u8> {
     }
 }
 
-/// The step to which positions were rounded; none where they were not. The decoder does not pass it on, but the stream has it
-/// (specification, "DecodeQuantizationData"): the least number of each axis, which is among the positions, then the largest
-/// range of an axis, and in how many bits that is divided.
+/// The step to which positions were quantised; `None` if they were not. The decoder does not report it, but the stream
+/// contains it (specification, "DecodeQuantizationData"): the minimum of each axis, which is also in the positions,
+/// then the largest range of an axis, and the number of bits that divide it.
 fn rounding(source: &[u8], numbers: &[f32]) -> Option<f64> {
     let points = numbers.as_chunks::<3>().0;
     let first = points.first()?;

@@ -1,30 +1,30 @@
-//! What can be wrong with a glTF file. Each fault names the thing and says what to do.
+//! Errors in glTF files. Each names what is at fault and says what to do.
 
 use super::{MAX_COMPONENTS, MAX_TRIANGLES};
 
 /// What is wrong with a glTF file.
 #[derive(Debug, thiserror::Error)]
 pub enum Fault {
-    /// The operating system does not let the file be read.
+    /// The operating system cannot read the file.
     #[error("cannot be read: {0}")]
     Unreadable(std::io::Error),
     /// A folder, a pipe or a device.
     #[error("is not a file; name a .glb or .gltf file")]
     NotAFile,
     /// Larger than any glTF container.
-    #[error("has {0} bytes; a model may have 4 GiB: export it in parts or with less detail")]
+    #[error("has {0} bytes, but a model may have at most 4 GiB: export it in parts or with less detail")]
     TooLarge(u64),
     /// The file is of another format, or of none.
     #[error("is not glTF, though its name says so; it is damaged or of another format: copy or export it again")]
     NotGltf,
-    /// The binary container contradicts itself.
+    /// The binary container is inconsistent.
     #[error("{0}; the file is cut off or damaged: copy or export it again")]
     Container(String),
     /// The JSON is not JSON, or not glTF's.
     #[error("its JSON is damaged ({0}): export it again")]
     Json(serde_json::Error),
     /// glTF 1.0, or a version that does not exist yet.
-    #[error("is glTF {0}, and Gnomon reads glTF 2.0: export it as glTF 2.0")]
+    #[error("is glTF {0}, but Gnomon reads glTF 2.0: export it as glTF 2.0")]
     Version(String),
     /// An extension without which the geometry would be wrong.
     #[error("requires the extension {0}, which Gnomon does not read: export it without")]
@@ -34,52 +34,52 @@ pub enum Fault {
     Unpacking {
         /// What is compressed.
         what: String,
-        /// Verb and object.
+        /// The predicate of a sentence.
         problem: String,
     },
-    /// An index that leads nowhere.
-    #[error("{user} refers to {what} {index}, and there are only {count}; the file is damaged: export it again")]
+    /// An index out of range.
+    #[error("{user} refers to {what} {index}, but there are only {count}; the file is damaged: export it again")]
     NoSuch {
         /// What refers.
         user: String,
         /// The kind of thing referred to.
         what: &'static str,
-        /// Its number.
+        /// Its index.
         index: usize,
-        /// How many there are.
+        /// The number of things that exist.
         count: usize,
     },
-    /// A byte range beyond what holds it.
+    /// A byte range beyond the end of its source.
     #[error(
         "{what} reads bytes {start}–{end} of {holder}, which holds {holds}; \
          the file is cut off or damaged: export it again"
     )]
     Range {
-        /// What reads.
-        what: String,
-        /// First byte.
-        start: u64,
-        /// One behind the last byte.
-        end: u64,
         /// What is read.
+        what: String,
+        /// The first byte.
+        start: u64,
+        /// The end of the range.
+        end: u64,
+        /// The source.
         holder: String,
-        /// Bytes in it.
+        /// The bytes of the source.
         holds: u64,
     },
-    /// A name so long that nobody can have meant it; names are copied into every component.
-    #[error("{what} has a name of {bytes} bytes; a name may have 1000: shorten it and export again")]
+    /// A name that is too long to be meant. Names are copied into every component.
+    #[error("{what} has a name of {bytes} bytes; a name may have at most 1000: shorten it and export again")]
     LongName {
-        /// What is named.
+        /// What has the name.
         what: String,
         /// Length of the name.
         bytes: usize,
     },
-    /// An accessor that says what glTF does not allow here.
+    /// An accessor with contents that glTF does not allow here.
     #[error("accessor {accessor} {problem}: export it again")]
     Accessor {
-        /// Its number.
+        /// Its index.
         accessor: usize,
-        /// Verb and object.
+        /// The predicate of a sentence.
         problem: String,
     },
     /// A buffer without usable bytes.
@@ -87,36 +87,36 @@ pub enum Fault {
     Buffer {
         /// Its number.
         buffer: usize,
-        /// Verb, object and hint.
+        /// The predicate of a sentence, and a hint.
         problem: String,
     },
-    /// A node that has no place in the world.
-    #[error("node {node} {problem}: mend the model and export it again")]
+    /// A node without a valid transform.
+    #[error("node {node} {problem}: repair the model and export it again")]
     Node {
-        /// Its number.
+        /// Its index.
         node: usize,
-        /// Verb and object.
+        /// The predicate of a sentence.
         problem: String,
     },
-    /// A skin without a pose.
-    #[error("skin {skin} {problem}: mend the model and export it again")]
+    /// A skin without a valid pose.
+    #[error("skin {skin} {problem}: repair the model and export it again")]
     Skin {
-        /// Its number.
+        /// Its index.
         skin: usize,
-        /// Verb and object.
+        /// The predicate of a sentence.
         problem: String,
     },
     /// The requested scene does not exist.
     #[error("{0}")]
     Scene(String),
     /// A primitive whose triangles cannot be read.
-    #[error("primitive {primitive} of mesh {mesh} {problem}: mend the model and export it again")]
+    #[error("primitive {primitive} of mesh {mesh} {problem}: repair the model and export it again")]
     Primitive {
-        /// The mesh's number.
+        /// The mesh's index.
         mesh: usize,
-        /// The primitive's number in it.
+        /// The primitive's index in the mesh.
         primitive: usize,
-        /// Verb and object.
+        /// The predicate of a sentence.
         problem: String,
     },
     /// More triangles than a study can handle.
@@ -125,10 +125,10 @@ pub enum Fault {
     /// More components than a study can handle.
     #[error("has more than {MAX_COMPONENTS} components: join its objects by material and export again")]
     TooManyComponents,
-    /// More numbers to morph or skin than a study can handle.
+    /// More values to morph or skin than a study can handle.
     #[error("morphs or skins too much, instances counted: export it as it stands, without morph targets and skins")]
     TooManyMoves,
-    /// Nothing in the file could cast.
+    /// The scene has no triangles.
     #[error("has no triangles in {scene}, so nothing casts a shadow: {way_out}")]
     Empty {
         /// Which scene is read.

@@ -1,5 +1,5 @@
-//! Which feature of a city a vertex is of, and what features are called: `_BATCHID` with the batch table of a tile, and
-//! `EXT_mesh_features` with the property tables of `EXT_structural_metadata`.
+//! The features of a city model: which feature a vertex belongs to, and the features' names. Read from `_BATCHID` with
+//! the batch table of a tile, and from `EXT_mesh_features` with the property tables of `EXT_structural_metadata`.
 
 use super::Fault;
 use super::accessor::Accessors;
@@ -15,14 +15,14 @@ use gltf::json::validation::Checked;
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// Properties that name a feature, the likeliest first; letters may be small or capital.
+/// Properties that may name a feature, the likeliest first, in any case.
 const NAMING: [&str; 8] = ["name", "gml:name", "gml:id", "gml_id", "gmlid", "id", "guid", "globalid"];
 
-/// What the features of a file are called.
+/// The names of the features of a file.
 pub(super) struct Features {
-    /// Of each table a name for each feature, empty where it has none. The first is the tile's batch table.
+    /// For each table, a name for each feature; empty if it has none. The first is the tile's batch table.
     tables: Vec<Vec<String>>,
-    /// Whether a table names features, and cannot be read.
+    /// Whether a table should name features, but cannot be read.
     pub is_damaged: bool,
 }
 
@@ -33,11 +33,11 @@ pub(super) struct PrimitiveFeatures<'a> {
     table: usize,
 }
 
-/// A feature: its table, and its number there.
+/// A feature: its table, and its index there.
 pub(super) type FeatureKey = (usize, u32);
 
 impl Features {
-    /// Those of a file; `batch` are the names of a tile's batch table.
+    /// Reads the features of a file; `batch` are the names in a tile's batch table.
     pub(super) fn of(document: &Document, buffers: &Buffers, batch: &[String]) -> Self {
         let mut features = Self { tables: vec![batch.to_vec()], is_damaged: false };
         let Some(metadata) = document.extension("EXT_structural_metadata") else { return features };
@@ -50,7 +50,7 @@ impl Features {
         features
     }
 
-    /// The features of a primitive; none where nothing names them.
+    /// The features of a primitive; `None` if they have no names.
     pub(super) fn of_primitive<'a>(
         &self,
         accessors: &mut Accessors<'a, '_>,
@@ -68,7 +68,7 @@ impl Features {
         {
             let Some(ids) = primitive.attributes.get(&Checked::Valid(Semantic::Extras(attribute))) else { continue };
             let ids = accessors.get(ids.value(), || format!("features of primitive {number} of mesh {mesh}"))?;
-            // without bytes all would be the first feature
+            // without bytes, all vertices would belong to the first feature
             if ids.shape == Type::Scalar && ids.base.is_some() {
                 return Ok(Some(PrimitiveFeatures { ids, table }));
             }
@@ -80,7 +80,7 @@ impl Features {
         self.tables.get(table).map_or(&[], Vec::as_slice)
     }
 
-    /// What a feature is called.
+    /// A feature's name.
     pub(super) fn name(&self, (table, number): FeatureKey) -> String {
         let name = self.names(table).get(number as usize).filter(|name| !name.is_empty());
         name.cloned().unwrap_or_else(|| format!("feature {number}"))
@@ -88,7 +88,7 @@ impl Features {
 }
 
 impl PrimitiveFeatures<'_> {
-    /// The feature of a vertex; none where its number is none.
+    /// The feature of a vertex; `None` if it belongs to none.
     pub(super) fn of_vertex(&self, vertex: usize) -> Option<FeatureKey> {
         let [number] = self.ids.numbers::<1>(vertex);
         let is_whole = vertex < self.ids.count && number >= 0.0 && number < f64::from(u32::MAX);
@@ -96,7 +96,7 @@ impl PrimitiveFeatures<'_> {
     }
 }
 
-/// The property of a table whose texts are names: what its class says is one, else what is called so.
+/// The property of a table that contains names: the one whose class says so, otherwise one with a suitable name.
 fn naming_property<'a>(metadata: &'a Value, table: &'a Value) -> Option<&'a str> {
     let class = metadata.get("schema")?.get("classes")?.get(table.get("class")?.as_str()?)?;
     let said = class.get("properties")?.as_object()?;
@@ -114,7 +114,7 @@ fn naming_property<'a>(metadata: &'a Value, table: &'a Value) -> Option<&'a str>
     means("NAME").or_else(|| NAMING.iter().find_map(called)).or_else(|| means("ID"))
 }
 
-/// The texts of a table's property; none where they do not lie where they are said to.
+/// The texts of a table's property; `None` if its byte ranges are invalid.
 fn texts(table: &Value, property: &str, buffers: &Buffers) -> Option<Vec<String>> {
     let said = table.get("properties")?.get(property)?;
     let view = |key: &str| {
@@ -136,11 +136,11 @@ fn texts(table: &Value, property: &str, buffers: &Buffers) -> Option<Vec<String>
         usize::try_from(number).unwrap_or(usize::MAX)
     };
     let offsets: Vec<usize> = offsets.chunks_exact(size).map(offset).collect();
-    // each begins where the one before ends, so that all together are no longer than the values
+    // each text begins at the end of the one before, so together they are no longer than the values
     offsets.windows(2).map(|pair| Some(label(&String::from_utf8_lossy(values.get(pair[0]..pair[1])?)))).collect()
 }
 
-/// The names that a batch table has for its features; empty where it has none.
+/// The names of features in a batch table; empty if it has none.
 pub(in crate::formats) fn batch_names(table: &[u8]) -> Vec<String> {
     let Ok(Value::Object(columns)) = serde_json::from_slice(table) else { return Vec::new() };
     let called = |wanted: &&str| columns.iter().find(|(name, _)| name.eq_ignore_ascii_case(wanted));
@@ -153,7 +153,7 @@ pub(in crate::formats) fn batch_names(table: &[u8]) -> Vec<String> {
     column.map(|column| column.iter().map(text).collect()).unwrap_or_default()
 }
 
-/// A part's triangles, feature by feature; `keys` has one for each corner of the part.
+/// Splits a part's triangles by feature. `keys` has one entry for each corner of the part.
 pub(super) fn split(part: Part, keys: &[Option<FeatureKey>]) -> Vec<(Option<FeatureKey>, Part)> {
     if keys.is_empty() {
         return if part.triangles.is_empty() { Vec::new() } else { vec![(None, part)] };
@@ -168,7 +168,7 @@ pub(super) fn split(part: Part, keys: &[Option<FeatureKey>]) -> Vec<(Option<Feat
     each.collect()
 }
 
-/// Some triangles of a part, with the corners that they use. `numbers` has room for a number of each corner.
+/// Copies some triangles of a part with the corners that they use. `numbers` has room for an index of each corner.
 fn share(part: &Part, mut triangles: Vec<[u32; 3]>, numbers: &mut [u32]) -> Part {
     let mut used: Vec<u32> = triangles.iter().flatten().copied().collect();
     used.sort_unstable();
@@ -185,7 +185,7 @@ fn share(part: &Part, mut triangles: Vec<[u32; 3]>, numbers: &mut [u32]) -> Part
     Part { positions, triangles, coarse: coarse_share(&part.coarse, &used), ..Part::default() }
 }
 
-/// The runs of coarse corners among those that are used, which ascend.
+/// The runs of coarse corners among the used ones, which are in ascending order.
 fn coarse_share(runs: &[CornerPrecision], used: &[u32]) -> Vec<CornerPrecision> {
     let mut shares: Vec<(usize, CornerPrecision)> = Vec::new();
     for (number, &corner) in used.iter().enumerate() {

@@ -8,7 +8,7 @@ use super::scene::unit;
 use glam::{DAffine3, DQuat, DVec3};
 use gltf::json::accessor::{ComponentType, Type};
 
-/// The copies of a node's mesh; without the extension, the one that stands where the node does.
+/// The copies of a node's mesh; without the extension, a single one.
 pub(super) struct Instances<'a> {
     /// The number of instances.
     pub count: usize,
@@ -19,7 +19,7 @@ pub(super) struct Instances<'a> {
 }
 
 impl<'a> Instances<'a> {
-    /// Those of a node: the copies that it asks for, otherwise the mesh itself.
+    /// The copies of a node's mesh: those of the extension, otherwise one.
     pub(super) fn of(number: usize, node: Option<&Node>, accessors: &mut Accessors<'a, '_>) -> Result<Self, Fault> {
         match node.and_then(|node| node.extensions.instancing.as_ref()) {
             Some(asked) => Self::open(number, asked, accessors),
@@ -27,19 +27,22 @@ impl<'a> Instances<'a> {
         }
     }
 
-    /// The mesh itself, once.
+    /// A single copy.
     fn one(node: usize) -> Self {
         Self { count: 1, node, translation: None, rotation: None, scale: None }
     }
 
-    /// The copies that the extension asks for.
+    /// The copies of the extension.
     fn open(node: usize, asked: &Instancing, accessors: &mut Accessors<'a, '_>) -> Result<Self, Fault> {
         let mut instances = Self { count: 0, ..Self::one(node) };
         let mut first = None;
         for (name, &index) in &asked.attributes {
             let reader = accessors.get(index, || format!("instancing of node {node}"))?;
             if *first.get_or_insert(reader.count) != reader.count {
-                return Err(Fault::of_accessor(index, format!("has {} instances, and others have not", reader.count)));
+                return Err(Fault::of_accessor(
+                    index,
+                    format!("has {} instances, but other attributes have a different number", reader.count),
+                ));
             }
             let is_f32 = reader.component == ComponentType::F32;
             let is_small = matches!(reader.component, ComponentType::I8 | ComponentType::I16);
@@ -63,7 +66,7 @@ impl<'a> Instances<'a> {
         Ok(Self { count, ..instances })
     }
 
-    /// Node from instance.
+    /// The transform from an instance to its node.
     pub(super) fn get(&self, index: usize) -> Result<DAffine3, Fault> {
         let translation = self.translation.map_or(DVec3::ZERO, |reader| reader.vec3(index));
         let scale = self.scale.map_or(DVec3::ONE, |reader| reader.vec3(index));
@@ -74,7 +77,7 @@ impl<'a> Instances<'a> {
             }
             _ => Err(Fault::Node {
                 node: self.node,
-                problem: format!("has at instance {index} a transform that is not finite, or a rotation of no length"),
+                problem: format!("has a transform that is not finite, or a rotation of length 0, at instance {index}"),
             }),
         }
     }

@@ -1,9 +1,9 @@
-//! Whether a material is see-through. Every material casts as if it were solid all the same.
+//! Whether a material is see-through. Every material casts as if solid nevertheless.
 
 use serde::Deserialize;
 use serde_json::Value;
 
-/// A material. What it looks like may be broken in any way: no shadow depends on it.
+/// A material. Broken appearance data is accepted, since no shadow depends on it.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Material {
@@ -19,8 +19,8 @@ pub(super) struct Material {
 impl Material {
     /// Whether it is cut out (`MASK`) or translucent (`BLEND`, KHR_materials_transmission).
     ///
-    /// Many exporters write `BLEND` for everything. Where neither a texture, nor the factor, nor the colours of vertices
-    /// (`has_faded_vertices`) can make the alpha less than 1, it is opaque.
+    /// Many exporters write `BLEND` for everything. The material is opaque if neither a texture, nor the factor, nor
+    /// the vertices' colours (`has_faded_vertices`) can make its alpha less than 1.
     pub(super) fn is_see_through(&self, has_faded_vertices: bool) -> bool {
         let fades = |of: &Value, factor: &str, texture: &str| {
             of[factor][3].as_f64().is_some_and(|alpha| alpha < 1.0) || of[texture].is_object()

@@ -1,16 +1,15 @@
-//! A glTF 2.0 file → its parts, in its own units and axes.
+//! Reads glTF 2.0 files into parts, in the file's own units and axes.
 //!
-//! Only what casts a shadow is read: textures, lights, cameras and animations may be missing or broken. Meshes stand as
-//! they do without animation: with their default morph weights, and with their skins at rest. Hidden nodes are left
-//! out. Points and lines cast nothing and are skipped.
+//! Only what casts a shadow is read: textures, lights, cameras and animations may be missing or broken. Meshes are
+//! posed without animation: with their default morph weights, and with their skins at rest. Hidden nodes are left out.
+//! Points and lines cast nothing, and are skipped.
 //!
-//! A file is never trusted: every index and byte range is checked before it is used, and what is made of it is
-//! counted before memory is taken. The files of this folder, in the order of the flow: `container` (bytes → JSON and
-//! binary chunk), `document` and `material` (JSON → structure), `scene` (which nodes stand where), `buffers`, `accessor`
-//! and `reader` (bytes → numbers), `draco` and `meshopt` (what is compressed), `coarse` (how exact those are),
-//! `instances`, `primitive` (which triangles a mesh has), `features` (whose they are), `pose` (morphs and skins), `build` (all of it → parts), `own`
-//! (what this program itself has written of them), `notes` (what the user should know of it); beside it `named` (which
-//! other files are the model's).
+//! A file is never trusted: every index and byte range is checked before it is used, and sizes are computed before
+//! memory is allocated. The files of this folder, in the order of the flow: `container` (finds the JSON and the binary
+//! chunk), `document` and `material` (parse the JSON), `scene` (places nodes), `buffers`, `accessor` and `reader` (read
+//! numbers), `draco` and `meshopt` (decompress), `coarse` (measures precision), `instances`, `primitive` (the triangles
+//! of a mesh), `features` (the features that they belong to), `pose` (morphs and skins), `build` (makes parts), `own`
+//! (data that this program wrote itself), and `notes`; also `named` (the other files of a model).
 
 use super::{Format, MAX_COMPONENTS, MAX_TRIANGLES, Model, ModelFault, ReadOptions, SeeThrough};
 use crate::message::message;
@@ -62,13 +61,14 @@ impl Format for Gltf {
         head.starts_with(b"glTF")
     }
 
-    /// Reads a scene (all root nodes where the file has no scenes): one part per node and material, in the order of the
+    /// Reads a scene (all root nodes if the file has no scenes): one part per node and material, in the order of the
     /// scene.
     fn read(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
         Ok(read(path, options)?)
     }
 
-    /// Draco's decoder is others' code. A scene that the file has not is told here, where it is known who asked for it.
+    /// Draco's decoder is from another library. A missing scene is reported in this process, which knows who asked for
+    /// it.
     fn is_foreign(&self, path: &Path, options: &ReadOptions) -> bool {
         let Some(json) = container::json_of_file(path) else { return false };
         let Ok(document) = document::Document::parse(&json, &[]) else { return false };
@@ -84,21 +84,21 @@ fn read(path: &Path, options: &ReadOptions) -> Result<Model, Fault> {
     read_bytes(&container::read_file(path)?, path, options, GltfContext::default())
 }
 
-/// The JSON of a glTF that is in memory.
+/// The JSON of a glTF in memory.
 pub(super) fn json_in(bytes: &[u8]) -> Option<&[u8]> {
     container::open(bytes).ok().map(|container| container.json)
 }
 
-/// What whoever holds a glTF knows of it.
+/// What the caller of [`read_bytes`] knows about a glTF.
 #[derive(Clone, Copy, Default)]
 pub(super) struct GltfContext<'a> {
-    /// Extensions that it applies itself to what is read.
+    /// Extensions that the caller applies itself.
     pub applied: &'a [&'a str],
-    /// The names of the features of a tile.
+    /// The names of a tile's features.
     pub batch: &'a [String],
 }
 
-/// Reads a glTF that is in memory, as a content of 3D Tiles is. What it names lies beside `path`.
+/// Reads a glTF in memory, such as a content of 3D Tiles. Paths in it are relative to `path`.
 pub(super) fn read_bytes(
     bytes: &[u8],
     path: &Path,
@@ -122,13 +122,12 @@ pub(super) fn read_bytes(
     }
     let mut notes = notes::of(&document, &standing, is_asked);
     if features.is_damaged {
-        notes
-            .push(message!["has a damaged table of names, so that its features are not told apart"; "export it again"]);
+        notes.push(message!["has a damaged table of names, so its features are not separated"; "export it again"]);
     }
     let scene = standing.scene.and_then(|scene| document.scenes.get(scene));
     let own::OwnScene { anchor, unit_m, up_is_said } = scene.map(|scene| scene.own.clone()).unwrap_or_default();
     let anchors = anchor.into_iter().collect();
-    // glTF is in metres and y up, and many a program exports something else: where we have not written it ourselves nothing
-    // is said, so that it can be doubted
+    // glTF is in metres and y up, but many programs export something else. Unless this program wrote the file, nothing
+    // is stated, so that the unit and the axis can be doubted.
     Ok(Model { parts, kinds, notes, see_through, anchors, unit_m, up_is_said, from_ground, ..Model::default() })
 }

@@ -1,4 +1,4 @@
-//! The files that a model names. They lie beside it and belong to its user, whether they are read or not.
+//! The files that a model refers to. They lie beside it and belong to its user, whether they are read or not.
 
 use super::buffers::{has_scheme, percent_decode};
 use super::container;
@@ -7,7 +7,7 @@ use serde::Deserialize;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
-/// What names files, whatever else is said there: a picture that is described wrongly must not hide a buffer.
+/// The references to files. Other data is ignored: a malformed image must not hide a buffer.
 #[derive(Deserialize)]
 struct Naming {
     #[serde(default)]
@@ -16,7 +16,7 @@ struct Naming {
     images: Value,
 }
 
-/// The files that a model names. One that cannot be read names none: whoever reads it says why.
+/// The files that a model refers to; empty if it cannot be read, which its reader reports.
 pub(crate) fn named_by(model: &Path) -> Vec<PathBuf> {
     let Some(naming) = container::json_of_file(model).and_then(|json| serde_json::from_slice::<Naming>(&json).ok())
     else {

@@ -1,15 +1,14 @@
-//! What this program itself writes where glTF cannot express it: `gnomon` in the `extras` of a node and of a scene.
+//! Data that this program writes because glTF cannot express it: `gnomon` in the `extras` of a node and of a scene.
 
 use crate::formats::{Anchor, AnchorPoint, PartKind, composed};
 use serde::{Deserialize, Deserializer};
 use serde_json::Value;
 
-/// Each component of the node has them: so many are taken, and no longer ones.
+/// The most names for each component of a node, which are all copied into it.
 const MOST_ALIASES: usize = 64;
 const LONGEST: usize = 1000;
 
-/// All names of a component beside its own, where they are said, its kind, and whether its heights are measured from the
-/// ground.
+/// A component's other names, its kind, and whether its heights are measured from the ground.
 #[derive(Debug, Default)]
 pub(super) struct OwnExtras {
     pub aliases: Option<Vec<String>>,
@@ -17,17 +16,17 @@ pub(super) struct OwnExtras {
     pub is_from_ground: bool,
 }
 
-/// Of a scene: where its zero stands, and what was said of it before it was glTF.
+/// A scene's data: where its origin lies, and what was known before it was converted to glTF.
 #[derive(Clone, Debug, Default)]
 pub(super) struct OwnScene {
     pub anchor: Option<Anchor>,
-    /// The length of a unit in metres, if somebody had said it.
+    /// The length of a unit in metres, if it was given.
     pub unit_m: Option<f64>,
-    /// Whether somebody had said the axis.
+    /// Whether the up axis was given.
     pub up_is_said: bool,
 }
 
-/// Reads a node's; what others write there is theirs.
+/// Reads a node's data, and ignores that of other programs.
 pub(super) fn read<'de, D: Deserializer<'de>>(from: D) -> Result<OwnExtras, D::Error> {
     let extras = Value::deserialize(from)?;
     let Some(ours) = extras.get("gnomon") else { return Ok(OwnExtras::default()) };
@@ -44,19 +43,19 @@ fn aliases(list: &[Value]) -> Vec<String> {
     texts.take(MOST_ALIASES).map(|alias| composed(alias).into_owned()).collect()
 }
 
-/// Reads a scene's.
+/// Reads a scene's data.
 pub(super) fn read_scene<'de, D: Deserializer<'de>>(from: D) -> Result<OwnScene, D::Error> {
     let extras = Value::deserialize(from)?;
     let Some(ours) = extras.get("gnomon") else { return Ok(OwnScene::default()) };
     Ok(OwnScene {
         anchor: anchor(ours),
-        // glTF has no other
+        // glTF has no other unit
         unit_m: ours["unit_m"].as_f64().filter(|unit| *unit == 1.0),
         up_is_said: ours["up"] == "y",
     })
 }
 
-/// Where the scene's zero stands; whether there is such a place, whoever uses it asks.
+/// Where the scene's origin lies. The caller checks whether that place exists.
 fn anchor(ours: &Value) -> Option<Anchor> {
     let number = |key: &str| ours.get(key).and_then(Value::as_f64);
     let north_rad = number("north").map(f64::to_radians);

@@ -1,7 +1,7 @@
-//! How a mesh stands without animation: with its default morph weights (glTF 2.0, 3.7.2.2), and the joints of its skin
-//! at rest (3.7.3). Positions are morphed first, then skinned.
+//! Poses a mesh without animation: with its default morph weights (glTF 2.0, 3.7.2.2), and the joints of its skin at
+//! rest (3.7.3). Positions are morphed first, then skinned.
 //!
-//! Most meshes have neither, and are read without checking either for every vertex.
+//! Most meshes have neither, and are read without a check for every vertex.
 
 use super::Fault;
 use super::accessor::Accessors;
@@ -15,28 +15,28 @@ use gltf::json::mesh::{Primitive, Semantic};
 use gltf::json::validation::Checked;
 use std::sync::Arc;
 
-/// How far from 0, 0, 0, 1 the last row of an inverse bind matrix may lie: exporters find it by inverting in `f32`.
+/// The tolerance for the last row 0, 0, 0, 1 of an inverse bind matrix: exporters invert in `f32`.
 const BIND_SLACK: f64 = 1e-4;
 
-/// What moves the vertices of a primitive beside its node.
+/// What moves the vertices of a primitive besides its node.
 #[derive(Default)]
 pub(super) struct Pose<'a> {
-    /// Displacements, each with its weight.
+    /// Displacements with their weights.
     targets: Vec<(f64, Reader<'a>)>,
     skin: Option<Skinned<'a>>,
 }
 
-/// The joints of a skin: per joint, the world from the mesh's own units.
+/// The joints of a skin: for each, the transform from the mesh's units to the world.
 type Joints = Arc<[DAffine3]>;
 
 struct Skinned<'a> {
     joints: Joints,
-    /// Four joints a vertex, and four weights; one set or more.
+    /// Sets of four joints and four weights for each vertex; at least one set.
     sets: Vec<(Reader<'a>, Reader<'a>)>,
 }
 
 impl<'a> Pose<'a> {
-    /// The pose of a node's primitive. One without joints stands by its node, whatever skin that has.
+    /// The pose of a node's primitive. Without joints it stands by its node, whatever skin that has.
     pub(super) fn open(
         document: &Document,
         accessors: &mut Accessors<'a, '_>,
@@ -62,22 +62,23 @@ impl<'a> Pose<'a> {
         Ok(Self { targets: targets(accessors, triangles, primitive, weights)?, skin })
     }
 
-    /// Whether the vertices stand as they are stored.
+    /// Whether the vertices stay as they are stored.
     pub(super) fn is_plain(&self) -> bool {
         self.targets.is_empty() && self.skin.is_none()
     }
 
-    /// What scales and turns the mesh: its node, or where it has a skin the first joint, which stands for all.
+    /// The transform that scales and turns the mesh: its node's, or with a skin that of the first joint, which
+    /// represents all.
     pub(super) fn model_from_mesh<'b>(&'b self, model_from_node: &'b DAffine3) -> &'b DAffine3 {
         self.skin.as_ref().and_then(|skin| skin.joints.first()).unwrap_or(model_from_node)
     }
 
-    /// How many accessors are asked for each vertex.
+    /// The number of accessors that are read for each vertex.
     pub(super) fn readers(&self) -> usize {
         self.targets.len() + self.skin.as_ref().map_or(0, |skin| 2 * skin.sets.len())
     }
 
-    /// Where a vertex stands that is stored at `stored`. Not finite where a joint is named that the skin does not have.
+    /// The position of a vertex stored at `stored`. Not finite if it refers to a joint that the skin does not have.
     pub(super) fn point(&self, stored: DVec3, vertex: usize, model_from_mesh: &DAffine3) -> DVec3 {
         let moved = |at: DVec3, (weight, target): &(f64, Reader)| at + *weight * target.vec3(vertex);
         let morphed = self.targets.iter().fold(stored, moved);
@@ -87,19 +88,19 @@ impl<'a> Pose<'a> {
         }
     }
 
-    /// Why a vertex has no place, in verb and object.
+    /// Why a vertex has no valid position, as the predicate of a sentence.
     pub(super) fn problem(&self, vertex: usize) -> String {
         let unknown = self.skin.as_ref().and_then(|skin| Some((skin.unknown_joint(vertex)?, skin.joints.len())));
         match unknown {
-            Some((joint, count)) => format!("has at vertex {vertex} the joint {joint}, and its skin has only {count}"),
-            None => format!("has at vertex {vertex} a position that is not finite"),
+            Some((joint, count)) => format!("has the joint {joint} at vertex {vertex}, but its skin has only {count}"),
+            None => format!("has a position that is not finite at vertex {vertex}"),
         }
     }
 }
 
 impl Skinned<'_> {
-    /// The vertex as its joints have it, each as much as its weight says. Weights are divided by their sum, which is 1 but
-    /// for rounding; a vertex without any goes with its first joint, as viewers have it.
+    /// The position of a vertex as the weighted mean of its joints. Weights are divided by their sum, which is 1 except
+    /// for rounding. A vertex without weights follows its first joint, as in viewers.
     fn point(&self, at: DVec3, vertex: usize) -> DVec3 {
         let by = |joint: usize| self.joints.get(joint).map_or(DVec3::NAN, |joint| joint.transform_point3(at));
         let (mut point, mut sum) = (DVec3::ZERO, 0.0);
@@ -118,13 +119,13 @@ impl Skinned<'_> {
         })
     }
 
-    /// A joint that the vertex names and the skin does not have.
+    /// A joint of the vertex that the skin does not have.
     fn unknown_joint(&self, vertex: usize) -> Option<usize> {
         self.influences(vertex).map(|(joint, _)| joint).find(|joint| *joint >= self.joints.len())
     }
 }
 
-/// The morph targets whose weight is not 0. A target that says nothing of positions moves none.
+/// The morph targets with a weight other than 0 that have positions.
 fn targets<'a>(
     accessors: &mut Accessors<'a, '_>,
     triangles: &PrimitiveTriangles,
@@ -149,7 +150,7 @@ fn targets<'a>(
     Ok(targets)
 }
 
-/// Whether its vertices name joints.
+/// Whether its vertices have joints.
 fn has_joints(primitive: &Primitive) -> bool {
     primitive.attributes.keys().any(|semantic| matches!(semantic, Checked::Valid(Semantic::Joints(_))))
 }
@@ -189,11 +190,11 @@ fn check_count(what: &str, reader: &Reader, triangles: &PrimitiveTriangles) -> R
     Err(Fault::of_primitive(
         triangles.mesh,
         triangles.primitive,
-        format!("has {what} for {has} vertices, and there are {needs}"),
+        format!("has {what} for {has} vertices, but has {needs} vertices"),
     ))
 }
 
-/// The skins of a file; each is read when it is first asked for.
+/// The skins of a file. Each is read when it is first used.
 pub(super) struct Skins<'a> {
     document: &'a Document,
     worlds: Option<NodeTransforms<'a>>,
@@ -206,14 +207,14 @@ impl<'a> Skins<'a> {
         Self { document, worlds: None, known }
     }
 
-    /// A skin by its number. The transform of the node that has it counts for nothing (3.7.3.3).
+    /// A skin by its index. The transform of the node that uses it is ignored (3.7.3.3).
     fn get(&mut self, node: usize, index: usize, accessors: &mut Accessors<'a, '_>) -> Result<Joints, Fault> {
         let count = self.known.len();
         let (Some(known), Some(skin)) = (self.known.get_mut(index), self.document.skins.get(index)) else {
             return Err(Fault::NoSuch { user: format!("node {node}"), what: "skin", index, count });
         };
         if self.document.nodes.get(node).is_some_and(|node| node.extensions.instancing.is_some()) {
-            let problem = "has a skin and instances, and glTF does not say where those stand".into();
+            let problem = "has a skin and instances, and glTF does not define where those stand".into();
             return Err(Fault::Node { node, problem });
         }
         if let Some(joints) = known {
@@ -232,7 +233,7 @@ impl<'a> Skins<'a> {
                 return Err(fault("has inverse bind matrices of a type that glTF does not allow".into()));
             }
             if bind.count < skin.joints.len() {
-                let problem = format!("has {} joints, and inverse bind matrices for {}", skin.joints.len(), bind.count);
+                let problem = format!("has {} joints, but inverse bind matrices for {}", skin.joints.len(), bind.count);
                 return Err(fault(problem));
             }
         }
@@ -250,7 +251,7 @@ impl<'a> Skins<'a> {
             let model_from_mesh = joint_from_mesh.map(|joint_from_mesh| model_from_joint * joint_from_mesh);
             let Some(model_from_mesh) = model_from_mesh.filter(DAffine3::is_finite) else {
                 return Err(fault(format!(
-                    "has at joint {number} an inverse bind matrix that moves nothing to a place"
+                    "has an inverse bind matrix at joint {number} that is not a valid transform"
                 )));
             };
             joints.push(model_from_mesh);

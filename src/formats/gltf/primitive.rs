@@ -1,4 +1,4 @@
-//! A mesh's primitives → triangles as indices of vertices, grouped by material.
+//! Reads a mesh's primitives as triangles of vertex indices, grouped by material.
 
 use super::Fault;
 use super::accessor::Accessors;
@@ -21,7 +21,7 @@ pub(super) struct MeshTriangles<'a> {
 
 /// The primitives of one mesh and material.
 pub(super) struct MaterialGroup<'a> {
-    /// Its number, if it has one.
+    /// Its index, if it has one.
     pub material: Option<usize>,
     /// Whether the colours of its vertices have an alpha channel.
     pub has_faded_vertices: bool,
@@ -31,28 +31,28 @@ pub(super) struct MaterialGroup<'a> {
 
 /// A primitive with triangles.
 pub(super) struct PrimitiveTriangles<'a> {
-    /// The mesh's number.
+    /// The mesh's index.
     pub mesh: usize,
-    /// The primitive's number in it.
+    /// The primitive's index in the mesh.
     pub primitive: usize,
     /// Its vertices.
     pub positions: Reader<'a>,
     /// The number of triangles, at least one.
     pub triangles: usize,
-    /// The features of its vertices, where something names them.
+    /// The features of its vertices, if they have names.
     pub features: Option<PrimitiveFeatures<'a>>,
     indices: Option<Reader<'a>>,
     mode: Mode,
 }
 
 impl MaterialGroup<'_> {
-    /// How many triangles all its primitives have.
+    /// The number of triangles of all its primitives.
     pub(super) fn triangles(&self) -> u64 {
         self.primitives.iter().map(|primitive| primitive.triangles as u64).sum()
     }
 }
 
-/// Reads what the primitives of mesh `index` say; points and lines are skipped.
+/// Reads the primitives of mesh `index`; points and lines are skipped.
 pub(super) fn of_mesh<'a>(
     document: &Document,
     accessors: &mut Accessors<'a, '_>,
@@ -95,7 +95,7 @@ pub(super) fn of_mesh<'a>(
     Ok(MeshTriangles { groups, one_material: group_of.len() == 1 })
 }
 
-/// Whether its vertices have colours of four numbers.
+/// Whether its vertices have colours with an alpha channel.
 fn has_faded_vertices(document: &Document, primitive: &Primitive) -> bool {
     let colours = primitive.attributes.get(&Checked::Valid(Semantic::Colors(0)));
     let accessor = colours.and_then(|colours| document.accessors.get(colours.value()));
@@ -117,7 +117,7 @@ fn triangles_of<'a>(
         return fault("has no positions");
     };
     let positions = accessors.get(positions, user)?;
-    // KHR_mesh_quantization allows all whole numbers but u32.
+    // KHR_mesh_quantization allows all integer types except u32.
     if positions.shape != Type::Vec3 || positions.component == ComponentType::U32 {
         return fault("has positions of a type that glTF does not allow");
     }
@@ -141,12 +141,12 @@ fn triangles_of<'a>(
 }
 
 impl PrimitiveTriangles<'_> {
-    /// The vertices of some of its triangles, counter-clockwise; each is one of `positions`.
+    /// The vertices of some of its triangles, counter-clockwise, as indices into `positions`.
     ///
-    /// Triangles of a strip that only join what lies before and behind them are left out.
+    /// Degenerate triangles of a strip, which only join its parts, are left out.
     pub(super) fn corners(&self, triangles: Range<usize>) -> Result<Vec<[u32; 3]>, Fault> {
         if let (Mode::Triangles, Some(indices)) = (self.mode, self.indices) {
-            // nearly all files, and what is asked of a triangle is asked of all at once
+            // a fast path for nearly all files: checks all indices together
             let vertices = indices.wholes(triangles.start * 3..triangles.end * 3);
             let most = self.positions.count.min(restart(&indices) as usize);
             if vertices.iter().all(|&vertex| (vertex as usize) < most) {
@@ -156,7 +156,7 @@ impl PrimitiveTriangles<'_> {
         triangles.filter_map(|index| self.triangle(index).transpose()).collect()
     }
 
-    /// The vertices of triangle `index`; none where it only joins others.
+    /// The vertices of triangle `index`; `None` for a degenerate triangle of a strip.
     fn triangle(&self, index: usize) -> Result<Option<[u32; 3]>, Fault> {
         let corners = match self.mode {
             Mode::TriangleStrip if index.is_multiple_of(2) => [index, index + 1, index + 2],
@@ -165,7 +165,7 @@ impl PrimitiveTriangles<'_> {
             _ => [index * 3, index * 3 + 1, index * 3 + 2],
         };
         let Some(indices) = self.indices else {
-            // there are no more triangles than are counted in 32 bits
+            // fits: triangles are counted in 32 bits
             return Ok(Some(corners.map(|corner| corner as u32)));
         };
         let vertices = corners.map(|corner| indices.whole(corner));
@@ -174,7 +174,7 @@ impl PrimitiveTriangles<'_> {
             let is_restart = vertex == restart(&indices);
             if is_restart || vertex as usize >= count {
                 let why = if is_restart { "glTF forbids that number" } else { "that is out of range" };
-                let problem = format!("names vertex {vertex} of {count} in triangle {index}; {why}");
+                let problem = format!("has vertex {vertex} of {count} in triangle {index}; {why}");
                 return Err(Fault::of_primitive(self.mesh, self.primitive, problem));
             }
         }
@@ -184,7 +184,7 @@ impl PrimitiveTriangles<'_> {
     }
 }
 
-/// The largest number of the type, which names no vertex.
+/// The largest value of the type, which glTF reserves.
 fn restart(indices: &Reader) -> u32 {
     match indices.component {
         ComponentType::U8 => u8::MAX.into(),

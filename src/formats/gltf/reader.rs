@@ -1,7 +1,7 @@
 //! The numbers of a checked accessor: strided, normalised, sparse, or zero.
 //!
-//! [`super::accessor`] has checked that all elements lie within their buffers. The reads here still go through `get`,
-//! so that a mistake there would give zeros and not a crash.
+//! [`super::accessor`] has checked that all elements lie within their buffers. The reads here still use `get`, so that
+//! a mistake there would give zeros and not a panic.
 
 use super::Fault;
 use glam::DVec3;
@@ -11,21 +11,21 @@ use std::ops::Range;
 /// A checked accessor: `count` elements, all of which can be read.
 #[derive(Clone, Copy)]
 pub(super) struct Reader<'a> {
-    /// Its number in the file.
+    /// Its index in the file.
     pub accessor: usize,
     /// The number of elements.
     pub count: usize,
-    /// The type of its numbers.
+    /// The type of its components.
     pub component: ComponentType,
     /// The number of components of an element.
     pub shape: Type,
     /// Whether integers represent 0 to 1, or −1 to 1.
     pub normalized: bool,
-    /// Where its elements lie; `None` if they are zero.
+    /// Where its elements are; `None` if all are zero.
     pub base: Option<StridedElements<'a>>,
     /// The elements that replace some of them.
     pub sparse: Option<Sparse<'a>>,
-    /// The step from one number to the next, if they were rounded to steps before they were packed.
+    /// The step between neighbouring values, if they were quantised before they were packed.
     pub rounded: Option<f64>,
 }
 
@@ -36,7 +36,7 @@ pub(super) struct StridedElements<'a> {
     pub stride: usize,
 }
 
-/// Elements that stand for those of the base. Looked up where they lie, so that a table costs no memory.
+/// Elements that replace some of the base. They are looked up in the buffer, so that a table takes no memory.
 #[derive(Clone, Copy)]
 pub(super) struct Sparse<'a> {
     /// The number of entries.
@@ -56,13 +56,13 @@ impl StridedElements<'_> {
         each.map(|element| element.first_chunk().copied().unwrap_or([0; N]))
     }
 
-    /// `bytes` of element `index`, from its `offset`.
+    /// `N` bytes of element `index`, from its `offset`.
     fn at<const N: usize>(&self, index: usize, offset: usize) -> Option<[u8; N]> {
         let start = index.checked_mul(self.stride)?.checked_add(offset)?;
         self.bytes.get(start..)?.first_chunk().copied()
     }
 
-    /// A whole number of element `index`.
+    /// An integer of element `index`.
     fn whole(&self, component: ComponentType, index: usize) -> Option<u32> {
         Some(match component {
             ComponentType::U8 => self.at::<1>(index, 0)?[0].into(),
@@ -73,15 +73,15 @@ impl StridedElements<'_> {
 }
 
 impl Reader<'_> {
-    /// A vertex number or the like: element `index` of a scalar accessor of u8, u16 or u32.
+    /// An index, such as a vertex: element `index` of a scalar accessor of u8, u16 or u32.
     pub(super) fn whole(&self, index: usize) -> u32 {
         let (source, index) = self.source(index);
         source.and_then(|source| source.whole(self.component, index)).unwrap_or(0)
     }
 
-    /// As [`Self::whole`], of some elements.
+    /// As [`Self::whole`], for several elements.
     pub(super) fn wholes(&self, elements: Range<usize>) -> Vec<u32> {
-        // asked once what they are, and not for every number
+        // the type is matched once, and not for every element
         match (self.base, self.component) {
             (Some(base), ComponentType::U32) if self.sparse.is_none() => {
                 base.each(elements).map(u32::from_le_bytes).collect()
@@ -93,19 +93,19 @@ impl Reader<'_> {
         }
     }
 
-    /// The first three numbers of element `index`.
+    /// The first three components of element `index`.
     pub(super) fn vec3(&self, index: usize) -> DVec3 {
         let [x, y, z] = self.numbers(index);
         DVec3::new(x, y, z)
     }
 
-    /// The first `N` numbers of element `index`, normalised where the accessor says so.
+    /// The first `N` components of element `index`, normalised if the accessor says so.
     pub(super) fn numbers<const N: usize>(&self, index: usize) -> [f64; N] {
         let (source, index) = self.source(index);
         std::array::from_fn(|lane| source.and_then(|source| self.number(&source, index, lane)).unwrap_or(0.0))
     }
 
-    /// Where element `index` lies, and as which; nowhere where it is zero.
+    /// Where element `index` is, and at which index there; `None` if it is zero.
     fn source(&self, index: usize) -> (Option<StridedElements<'_>>, usize) {
         match self.sparse.and_then(|sparse| Some((sparse, sparse.find(index)?))) {
             Some((sparse, entry)) => (Some(sparse.values), entry),
@@ -125,11 +125,11 @@ impl Reader<'_> {
                 return Some(f32::from_le_bytes(source.at(index, offset)?).into());
             }
         };
-        // The least number of a signed type is one step below −1.
+        // the least value of a signed type is one step below −1
         Some(if self.normalized { f64::max(value / most, -1.0) } else { value })
     }
 
-    /// Sparse indices must increase and stay in range, or they could not be looked up.
+    /// Checks that sparse indices increase and are in range, so that they can be looked up.
     pub(super) fn check_sparse(&self) -> Result<(), Fault> {
         let Some(sparse) = self.sparse else {
             return Ok(());
@@ -155,7 +155,7 @@ impl Sparse<'_> {
         self.indices.whole(self.component, entry).map_or(usize::MAX, |index| index as usize)
     }
 
-    /// The entry that stands for element `index`.
+    /// The sparse entry for element `index`.
     fn find(&self, index: usize) -> Option<usize> {
         let (mut low, mut high) = (0, self.count);
         while low < high {

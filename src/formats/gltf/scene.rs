@@ -1,4 +1,4 @@
-//! Which nodes stand in a scene, and where. Trees may have any depth, so nothing here recurses.
+//! Places the nodes of a scene. Trees may have any depth, so nothing here recurses.
 
 use super::Fault;
 use super::document::{Document, Node};
@@ -7,21 +7,21 @@ use crate::formats::composed;
 use crate::message::few;
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
-/// A node with a mesh, and where it stands.
+/// A node with a mesh, and its transform.
 pub(super) struct PlacedNode {
     /// The index of the node.
     pub node: usize,
-    /// The index of the mesh, which exists.
+    /// The index of the mesh, which is in range.
     pub mesh: usize,
     /// The index of the skin, if it has one.
     pub skin: Option<usize>,
-    /// Transforms the node's own units to metres in the world.
+    /// The transform from the node's units to metres in the world.
     pub model_from_node: DAffine3,
 }
 
-/// What stands in a scene, and what is hidden there (KHR_node_visibility).
+/// The nodes of a scene, and those hidden in it (KHR_node_visibility).
 pub(super) struct SceneContents {
-    /// The visible nodes with a mesh, parents before children and siblings in the file's order.
+    /// The visible nodes with a mesh, parents before children and siblings in file order.
     pub placed: Vec<PlacedNode>,
     /// The number of hidden nodes with a mesh.
     pub hidden: usize,
@@ -31,18 +31,18 @@ pub(super) struct SceneContents {
     pub scene: Option<usize>,
 }
 
-/// The nodes of the scene that is asked for, otherwise of the file's default one.
+/// Places the nodes of the requested scene, otherwise of the file's default one.
 pub(super) fn place(document: &Document, asked: Option<&SceneName>) -> Result<SceneContents, Fault> {
     let parents = parents(document)?;
     check_cycles(&parents)?;
     let scene = number(document, asked)?;
-    // with the node above it that hides it, where there is one
+    // each with the node above it that hides it, if there is one
     let mut open: Vec<(usize, DAffine3, Option<usize>)> = Vec::new();
     for root in roots(document, &parents, scene)?.into_iter().rev() {
         open.push((root, DAffine3::IDENTITY, None));
     }
     let mut standing = SceneContents { placed: Vec::new(), hidden: 0, hiding: Vec::new(), scene };
-    // Each node has at most one parent and no tree bites its tail, so each is met once.
+    // each node has at most one parent and there are no cycles, so each is visited once
     while let Some((index, model_from_parent, hiding)) = open.pop() {
         let Some(node) = document.nodes.get(index) else {
             continue; // `parents` and `roots` have checked the index.
@@ -62,7 +62,7 @@ pub(super) fn place(document: &Document, asked: Option<&SceneName>) -> Result<Sc
                 None => standing.placed.push(PlacedNode { node: index, mesh, skin: node.skin, model_from_node }),
                 Some(hiding) => {
                     standing.hidden += 1;
-                    // what hangs below one node comes in one run
+                    // nodes below a hidden one are consecutive
                     if standing.hiding.last() != Some(&hiding) {
                         standing.hiding.push(hiding);
                     }
@@ -74,7 +74,7 @@ pub(super) fn place(document: &Document, asked: Option<&SceneName>) -> Result<Sc
     Ok(standing)
 }
 
-/// Where single nodes stand, be they in the scene or not.
+/// The transforms of single nodes, in the scene or not.
 pub(super) struct NodeTransforms<'a> {
     document: &'a Document,
     parents: Vec<Option<usize>>,
@@ -82,19 +82,19 @@ pub(super) struct NodeTransforms<'a> {
 }
 
 impl<'a> NodeTransforms<'a> {
-    /// Of a document of which [`place`] has found the scene.
+    /// For a document whose scene [`place`] has found.
     pub(super) fn new(document: &'a Document) -> Result<Self, Fault> {
         let parents = parents(document)?;
         let known = vec![None; parents.len()];
         Ok(Self { document, parents, known })
     }
 
-    /// World from node; `user` says who asks.
+    /// The transform from a node to the world; `user` says what needs it.
     pub(super) fn get(&mut self, node: usize, user: impl Fn() -> String) -> Result<DAffine3, Fault> {
         if node >= self.parents.len() {
             return Err(no_such_node(self.document, user(), node));
         }
-        // up to the next node that is known, and down again
+        // climb to the nearest known ancestor, then descend
         let (mut climbed, mut next) = (Vec::new(), Some(node));
         let mut model_from_node = DAffine3::IDENTITY;
         while let Some(index) = next {
@@ -115,16 +115,16 @@ impl<'a> NodeTransforms<'a> {
     }
 }
 
-/// World from node.
+/// The transform from a node to the world.
 fn below(model_from_parent: DAffine3, node: &Node, index: usize) -> Result<DAffine3, Fault> {
     let model_from_node = model_from_parent * local(node, index)?;
     match model_from_node.is_finite() {
         true => Ok(model_from_node),
-        false => Err(fault(index, "lies beyond all numbers, as its parents' transforms multiply")),
+        false => Err(fault(index, "has coordinates that are too large, as its parents' transforms multiply")),
     }
 }
 
-/// Per node its parent.
+/// For each node, its parent.
 fn parents(document: &Document) -> Result<Vec<Option<usize>>, Fault> {
     let mut parents = vec![None; document.nodes.len()];
     for (index, node) in document.nodes.iter().enumerate() {
@@ -140,7 +140,7 @@ fn parents(document: &Document) -> Result<Vec<Option<usize>>, Fault> {
     Ok(parents)
 }
 
-/// Follows every node's ancestors once.
+/// Follows every node's ancestors once, to find cycles.
 fn check_cycles(parents: &[Option<usize>]) -> Result<(), Fault> {
     let mut walk_of = vec![None; parents.len()];
     for start in 0..parents.len() {
@@ -159,7 +159,8 @@ fn check_cycles(parents: &[Option<usize>]) -> Result<(), Fault> {
     Ok(())
 }
 
-/// The scene that is asked for, otherwise the file's default one, otherwise its first; none where it has none.
+/// The index of the requested scene, otherwise of the file's default one, otherwise of its first; `None` without
+/// scenes.
 fn number(document: &Document, asked: Option<&SceneName>) -> Result<Option<usize>, Fault> {
     let count = document.scenes.len();
     let Some(asked) = asked else {
@@ -178,7 +179,7 @@ fn number(document: &Document, asked: Option<&SceneName>) -> Result<Option<usize
     let found: Vec<usize> = (0..count).filter(is_it).collect();
     match found.as_slice() {
         [] if count == 0 => Err(Fault::Scene("has no scenes; leave `scene` out".into())),
-        [] => Err(Fault::Scene(format!("has no scene {asked}; there is {}", scenes(document, 0..count)))),
+        [] => Err(Fault::Scene(format!("has no scene {asked}; it has {}", scenes(document, 0..count)))),
         [index] => Ok(Some(*index)),
         several => {
             let several = scenes(document, several.iter().copied());
@@ -187,7 +188,7 @@ fn number(document: &Document, asked: Option<&SceneName>) -> Result<Option<usize
     }
 }
 
-/// Scenes for a message: by their names, each with its number.
+/// The names of scenes with their indices, for a message.
 pub(super) fn scenes(document: &Document, indices: impl IntoIterator<Item = usize>) -> String {
     let told = |index: usize| match document.scene_name(index) {
         Some(name) => format!("\"{name}\" ({index})"),
@@ -196,7 +197,7 @@ pub(super) fn scenes(document: &Document, indices: impl IntoIterator<Item = usiz
     few(indices.into_iter().map(told).collect())
 }
 
-/// The roots of a scene, or of the file where it has none.
+/// The roots of a scene, or of the file if it has no scenes.
 fn roots(document: &Document, parents: &[Option<usize>], scene: Option<usize>) -> Result<Vec<usize>, Fault> {
     let Some((number, scene)) = scene.and_then(|number| Some((number, document.scenes.get(number)?))) else {
         return Ok((0..parents.len()).filter(|&node| parents.get(node) == Some(&None)).collect());
@@ -216,7 +217,8 @@ fn roots(document: &Document, parents: &[Option<usize>], scene: Option<usize>) -
     Ok(scene.nodes.clone())
 }
 
-/// Parent from node. A matrix goes before translation, rotation and scale, though glTF allows only one of both.
+/// The transform from a node to its parent. A matrix takes priority over translation, rotation and scale, although glTF
+/// does not allow both.
 fn local(node: &Node, index: usize) -> Result<DAffine3, Fault> {
     let local = if let Some(matrix) = node.matrix.as_deref() {
         let Some(matrix) = affine(*matrix, 1e-6) else {
@@ -228,7 +230,7 @@ fn local(node: &Node, index: usize) -> Result<DAffine3, Fault> {
         let scale = DVec3::from(node.scale.unwrap_or([1.0; 3]));
         let rotation = DQuat::from_array(node.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]));
         let Some(rotation) = unit(rotation) else {
-            return Err(fault(index, "has a rotation of no length"));
+            return Err(fault(index, "has a rotation of length 0"));
         };
         DAffine3::from_scale_rotation_translation(scale, rotation, translation)
     };
@@ -238,10 +240,10 @@ fn local(node: &Node, index: usize) -> Result<DAffine3, Fault> {
     Ok(local)
 }
 
-/// A matrix that is stored column by column; none where its last row is further than `slack` from 0, 0, 0, 1.
+/// A matrix in column-major order; `None` if its last row differs from 0, 0, 0, 1 by more than `slack`.
 pub(super) fn affine(matrix: [f64; 16], slack: f64) -> Option<DAffine3> {
     let [a, b, c, a0, d, e, f, d0, g, h, i, g0, x, y, z, one] = matrix;
-    // A matrix that was written row by row has its translation here.
+    // a matrix written in row-major order has its translation here
     if [a0, d0, g0, one - 1.0].iter().any(|value| value.abs() > slack) {
         return None;
     }
@@ -249,7 +251,7 @@ pub(super) fn affine(matrix: [f64; 16], slack: f64) -> Option<DAffine3> {
     Some(DAffine3::from_mat3_translation(linear, DVec3::new(x, y, z)))
 }
 
-/// The rotation that a stored quaternion means; none where it has no length or is not finite.
+/// The rotation of a stored quaternion; `None` if it has no length or is not finite.
 pub(super) fn unit(rotation: DQuat) -> Option<DQuat> {
     let length = rotation.length();
     (length.is_finite() && length > 0.0).then(|| rotation / length)

@@ -1,9 +1,9 @@
-//! Where the file says that the zero of its coordinates lies, and which way north is.
+//! Where an IFC file says that the origin of its coordinates lies, and which way north is.
 //!
-//! The angle [`Anchor::north_rad`] is clockwise, seen from above, from the file's +y to the north that is meant. For
-//! `TrueNorth` (x, y), a direction in the file's own axes, it is atan2(x, y). For `IfcMapConversion` it is
-//! atan2(XAxisOrdinate, XAxisAbscissa): the file's +x is turned by that angle anticlockwise from the map's east, so the
-//! map's north is turned by the same angle clockwise from the file's +y.
+//! The angle [`Anchor::north_rad`] is clockwise, seen from above, from the file's +y to north. For `TrueNorth` (x, y),
+//! a direction in the file's axes, it is atan2(x, y). For `IfcMapConversion` it is atan2(XAxisOrdinate, XAxisAbscissa):
+//! the file's +x is turned by that angle anticlockwise from the map's east, so the map's north is turned by the same
+//! angle clockwise from the file's +y.
 
 use super::super::{Anchor, AnchorPoint};
 use super::scan::IfcScan;
@@ -12,34 +12,35 @@ use ifc_lite_core::{
     CoordinateOperationKind, EntityDecoder, GeoRefExtractor, GeoRefSource, GeoReference, GeoReferenceDetails, IfcType,
 };
 
-/// Farther from the file's zero the place of its site says nothing of that zero: such coordinates are a map's.
+/// Beyond this distance from the file's origin, its site's place says nothing about that origin: the coordinates are a
+/// map's.
 const FARTHEST_SITE_M: f64 = 20_000.0;
 
-/// WGS 84: the equator's radius, and the eccentricity's square.
+/// WGS 84: the equatorial radius, and the squared eccentricity.
 const EQUATOR_M: f64 = 6_378_137.0;
 const ECCENTRICITY2: f64 = 0.006_694_379_990_14;
 
-/// Maps keep what they show at least so far from their zero, and no farther than a quarter of the Earth, metres.
+/// The least distance of a map's contents from its origin, metres; the greatest is a quarter of the Earth.
 const BESIDE_ZERO_M: f64 = 100_000.0;
 const LARGEST_MAP_M: f64 = 1.1e7;
 
-/// Two factors are the same within this.
+/// The tolerance within which two factors are equal.
 const SAME: f64 = 0.01;
 
-/// What a file says of its place.
+/// What a file says about its place.
 #[derive(Default)]
 pub(super) struct IfcPlaces {
     pub anchors: Vec<Anchor>,
-    /// The unit of a map's point, metres, where it is not said.
+    /// The assumed unit of a map's point, metres, if the file does not give it.
     pub assumed_map_unit_m: Option<f64>,
     pub notes: Vec<Message>,
 }
 
-/// What the reader found of units and of the first site's placement.
+/// What the reader found about units and the first site's placement.
 pub(super) struct IfcFrame {
     /// The length of a unit of the file, metres.
     pub unit_m: f64,
-    /// The position of the site's own zero along the file's axes, metres.
+    /// The position of the site's own origin along the file's axes, metres.
     pub site: Option<[f64; 3]>,
 }
 
@@ -61,14 +62,14 @@ pub(super) fn of(scan: &IfcScan, frame: &IfcFrame, decoder: &mut EntityDecoder) 
 }
 
 impl IfcPlaces {
-    /// Adds what a map conversion says, or one of its relatives.
+    /// Adds the anchor of a map conversion, or of one of its subtypes.
     fn on_map(&mut self, map: &GeoReference, details: &GeoReferenceDetails, unit_m: f64) {
         let said_by = match (details.operation, map.source) {
             (Some(CoordinateOperationKind::RigidOperation), _) => "IfcRigidOperation",
             (_, Some(GeoRefSource::MapConversion)) => "IfcMapConversion",
             (_, Some(GeoRefSource::EPSetMapConversion)) => "ePSet_MapConversion",
             _ => {
-                self.notes.push(message!["names a map in IfcProjectedCRS, and does not say where on it it lies"]);
+                self.notes.push(message!["names a map in IfcProjectedCRS, but does not say where on that map it lies"]);
                 return;
             }
         };
@@ -94,7 +95,7 @@ impl IfcPlaces {
         self.anchors.push(Anchor { said_by, at, north_rad: Some(map.rotation()) });
     }
 
-    /// Says that a map conversion has an axis without a direction, which is taken for the map's east.
+    /// Notes that a map conversion has an axis without a direction, and that the map's east is assumed.
     fn no_direction(&mut self, scan: &IfcScan, decoder: &mut EntityDecoder) {
         let conversions = scan.georeference.iter().filter(|(_, kind)| *kind == IfcType::IfcMapConversion);
         for &(id, _) in conversions {
@@ -102,7 +103,7 @@ impl IfcPlaces {
             let axis = conversion.get_float(5).zip(conversion.get_float(6));
             if axis.is_some_and(|(x, y)| x.hypot(y) < 1e-9) {
                 self.notes.push(message![
-                    "says by its IfcMapConversion an XAxis of (0, 0), which is no direction: it is taken as not turned on its map";
+                    "says by its IfcMapConversion an XAxis of (0, 0), which is not a direction: it is taken as not turned against its map";
                     "`north` under [[model]] turns it"
                 ]);
                 return;
@@ -110,8 +111,9 @@ impl IfcPlaces {
         }
     }
 
-    /// Metres of a map's unit that is not said: the project's, as IFC has it; but metres, where the numbers are those
-    /// of a map in metres and would lie beside its zero in the project's unit. Many programs write them so.
+    /// The unit of a map's point if the file does not give it, metres: the project's, as IFC defines. It is the metre
+    /// if the numbers fit a map in metres, but would lie near its origin in the project's unit. Many programs write
+    /// this.
     fn unsaid_map_unit_m(&mut self, map: &GeoReference, said_by: &str, unit_m: f64) -> f64 {
         let is_named = map.crs_name.as_deref().is_some_and(|name| !name.trim().is_empty());
         let as_metres = map.eastings.hypot(map.northings);
@@ -121,21 +123,21 @@ impl IfcPlaces {
         }
         self.notes.push(message![
             format!(
-                "says by its {said_by} {}, {} without the map's unit (MapUnit): in its own unit of {unit_m} m that is beside the \
-                 map's zero, so it is taken in metres",
+                "says by its {said_by} {}, {} without the map's unit (MapUnit): in its own unit of {unit_m} m that is near the \
+                 map's origin, so it is taken in metres",
                 map.eastings, map.northings
             );
-            "`position` under [[model]] changes where it stands"
+            "`position` under [[model]] overrides it"
         ]);
         1.0
     }
 
-    /// Metres on the map a unit of the file. Scale converts units, too: from the file's to the map's.
+    /// The metres on the map for a unit of the file. Scale also converts units, from the file's to the map's.
     fn scale(&mut self, map: &GeoReference, said_by: &str, map_unit_m: f64, unit_m: f64) -> f64 {
         let factors = [map.factor_x, map.factor_y, map.factor_z];
         if factors.iter().any(|factor| (factor - map.factor_x).abs() > 1e-9) {
             let said = format!("{} along x, {} along y and {} along z", factors[0], factors[1], factors[2]);
-            self.notes.push(message![format!("has another scale along each axis ({said}); the one along x is taken")]);
+            self.notes.push(message![format!("has different scales along its axes ({said}); the one along x is used")]);
         }
         if said_by == "IfcRigidOperation" {
             return unit_m;
@@ -152,7 +154,7 @@ impl IfcPlaces {
         written * map_unit_m
     }
 
-    /// The direction of true north, by the context of the model, otherwise by that of a plan.
+    /// The direction of true north in the context of the model, otherwise in that of a plan.
     fn true_north(&mut self, scan: &IfcScan, decoder: &mut EntityDecoder) -> Option<f64> {
         let mut said: Vec<(bool, f64)> = Vec::new();
         for &id in &scan.contexts {
@@ -169,12 +171,12 @@ impl IfcPlaces {
         let &(_, north) = said.iter().find(|(is_model, _)| *is_model).or(said.first())?;
         if let Some((_, other)) = said.iter().find(|(_, other)| (other - north).abs() > 1e-3) {
             let (north, other) = (north.to_degrees(), other.to_degrees());
-            self.notes.push(message![format!("says TrueNorth twice, {north:.3}° and {other:.3}°; the first is taken")]);
+            self.notes.push(message![format!("says TrueNorth twice, {north:.3}° and {other:.3}°; the first is used")]);
         }
         Some(north)
     }
 
-    /// Adds what the first site with a latitude and a longitude says.
+    /// Adds the anchor of the first site with a latitude and a longitude.
     fn of_site(&mut self, scan: &IfcScan, frame: &IfcFrame, north: Option<f64>, decoder: &mut EntityDecoder) {
         let found = scan.sites.iter().find_map(|&id| {
             let place = GeoRefExtractor::extract(decoder, &[(id, IfcType::IfcSite)]).ok()??;
@@ -184,10 +186,10 @@ impl IfcPlaces {
         let Some((id, place, elevation)) = found else { return };
         let (latitude, longitude) = (place.northings, place.eastings);
         if !(latitude.abs() < 90.0 && longitude.abs() <= 180.0) {
-            self.notes.push(message![format!("has an IfcSite at {latitude}°, {longitude}°, which is no place")]);
+            self.notes.push(message![format!("has an IfcSite at {latitude}°, {longitude}°, which is not a place")]);
             return;
         }
-        // the latitude and longitude are those of the site's own zero
+        // the latitude and longitude are of the site's own origin
         let site = if scan.sites.first() == Some(&id) { frame.site } else { None };
         let [x, y, z] = site.unwrap_or_default();
         if x.hypot(y) > FARTHEST_SITE_M {
@@ -207,7 +209,7 @@ impl IfcPlaces {
     }
 }
 
-/// A place some metres east and north of another; exact within millimetres over a few kilometres.
+/// The place some metres east and north of another one, exact to millimetres over a few kilometres.
 fn moved(latitude_deg: f64, longitude_deg: f64, east_m: f64, north_m: f64) -> (f64, f64) {
     let (sin, cos) = latitude_deg.to_radians().sin_cos();
     let bent = 1.0 - ECCENTRICITY2 * sin * sin;

@@ -1,4 +1,4 @@
-//! A file's text → the model: the products that the reader builds, and the notes on the others.
+//! Makes a model of a file's text: the products that the reader builds, and notes on the others.
 
 use super::super::{Coordinates, LeftOut, MAX_COMPONENTS, MAX_TRIANGLES, Model, ModelFault, ReadOptions, Up};
 use super::anchors::{self, IfcFrame};
@@ -17,15 +17,15 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
-/// Why rooms and holes are left out.
+/// Why rooms and openings are left out.
 const NOT_STANDING: &str = "not built";
 
-/// How many products the reader makes at once, before they become parts and their own meshes go.
+/// The number of products that are built at once, before their meshes become parts.
 const BATCH: usize = 400;
 
 /// The model of a file.
 pub(super) fn model(file: IfcText, options: &ReadOptions) -> Result<Model, ModelFault> {
-    // What the reader would print is counted here by a walk of its own.
+    // the reader would print this; it is counted below instead
     ifc_lite_core::set_report_sink(|_| {});
     let is_one_of_several = !file.ignored.is_empty();
     let read = || run_on_geometry_pool(|| read(file, options));
@@ -41,7 +41,7 @@ pub(super) fn model(file: IfcText, options: &ReadOptions) -> Result<Model, Model
     model.map_err(|fault| if is_one_of_several { first_of_several(fault) } else { fault })
 }
 
-/// What is wrong with the first model of an archive: the others may be what is meant.
+/// The error in the first model of an archive: another one may be meant.
 fn first_of_several(fault: ModelFault) -> ModelFault {
     let ModelFault::Unusable(Message { what, hint }) = fault else { return fault };
     let another = if hint.is_empty() { "unpack it to open another" } else { ", or unpack it to open another" };
@@ -54,7 +54,7 @@ fn first_of_several(fault: ModelFault) -> ModelFault {
 
 fn read(file: IfcText, options: &ReadOptions) -> Result<Model, ModelFault> {
     let (text, scan, mut notes) = prepared(file)?;
-    // decoded records are kept by whom decodes them, so each walk has its own
+    // a decoder caches its records, so each pass has its own
     let decoder = || EntityDecoder::with_arc_index(&text, scan.index.clone());
     let layers = IfcLayers::of(&scan, &mut decoder());
     let relations = IfcRelations::of(&scan, &mut decoder());
@@ -74,7 +74,7 @@ fn read(file: IfcText, options: &ReadOptions) -> Result<Model, ModelFault> {
     let frame = frame_of(&made);
     let is_unit_said = frame.unit_m != 1.0 || says_unit(&scan, &mut decoder());
     if !is_unit_said {
-        notes.push(message!["says no unit of length, so that its numbers are taken for metres"]);
+        notes.push(message!["gives no unit of length, so its numbers are taken as metres"]);
     }
     parts.in_units_of_file(frame.unit_m, options.told_step(frame.unit_m));
     let places = anchors::of(&scan, &frame, &mut decoder());
@@ -98,7 +98,7 @@ fn read(file: IfcText, options: &ReadOptions) -> Result<Model, ModelFault> {
     })
 }
 
-/// A file's text as the reader knows it, what is in it, and what is to be said of that.
+/// A file's text as the reader needs it, its contents, and notes on them.
 fn prepared(file: IfcText) -> Result<(Vec<u8>, IfcScan, Vec<Message>), ModelFault> {
     let mut text = file.bytes;
     if !is_ifc_text(&text) {
@@ -127,7 +127,7 @@ fn prepared(file: IfcText) -> Result<(Vec<u8>, IfcScan, Vec<Message>), ModelFaul
     Ok((text, found, notes))
 }
 
-/// Has the reader make the shapes of the products that are asked for, which become parts.
+/// Builds the shapes of the requested products as parts.
 fn shapes(
     text: &[u8],
     scan: &IfcScan,
@@ -143,7 +143,7 @@ fn shapes(
         .cancel(parts.stop.clone());
     let made = process(text, &request, parts);
     if let Some(unit) = made.metadata.length_unit_refused {
-        let what = format!("has a unit of length that is no number, in #{unit}");
+        let what = format!("has a unit of length that is not a number, in #{unit}");
         return Err(message![what; "export it again in metres"].into());
     }
     if parts.stop.load(Ordering::Relaxed) {
@@ -168,14 +168,14 @@ fn says_unit(scan: &IfcScan, decoder: &mut EntityDecoder) -> bool {
     units.iter().any(is_length)
 }
 
-/// What the reader found of units and of the site.
+/// What the reader found about units and the site.
 fn frame_of(made: &ProcessingResult) -> IfcFrame {
     let site = made.site_transform.as_deref().and_then(|matrix| matrix.get(12..15)?.try_into().ok());
     let site = site.filter(|at: &[f64; 3]| at.iter().all(|number| number.is_finite()));
     IfcFrame { unit_m: made.metadata.length_unit_scale.unwrap_or(1.0), site }
 }
 
-/// How many products have a shape here, and which others have none. It is always said.
+/// A note, always given, on the number of products with a shape, and those without.
 fn count_note(asked: usize, lost: &[&IfcProduct]) -> Message {
     let mut counts: BTreeMap<&str, u64> = BTreeMap::new();
     for product in lost {
@@ -199,7 +199,7 @@ fn count_note(asked: usize, lost: &[&IfcProduct]) -> Message {
     message![format!("has {shaped}{others}")]
 }
 
-/// What is lost of products that are there.
+/// Notes on what is missing of products that were built.
 fn loss_notes(scan: &IfcScan, parts: &IfcParts, made: &ProcessingResult) -> Vec<Message> {
     let mut notes = Vec::new();
     if let Some(found) = &made.stats.geometry_diagnostics {
@@ -208,7 +208,7 @@ fn loss_notes(scan: &IfcScan, parts: &IfcParts, made: &ProcessingResult) -> Vec<
         if !lost.is_empty() {
             notes.push(message![format!("has pieces of shapes that could not be built: {}", few(lost))]);
         }
-        // the reader's own remarks on results that it took
+        // the reader's remarks on results that it accepted
         let is_failure = |reason: &str| reason != "KernelError" && reason != "NoBoundsOverlap";
         let failures: Vec<String> = found
             .failures_by_reason
@@ -218,7 +218,7 @@ fn loss_notes(scan: &IfcScan, parts: &IfcParts, made: &ProcessingResult) -> Vec<
             .collect();
         if !failures.is_empty() {
             notes.push(message![format!(
-                "has cuts that failed or are approximate, so that a wall may lack a hole: {}",
+                "has cuts that failed or are approximate, so a wall may lack an opening: {}",
                 few(failures)
             )]);
         }
@@ -226,18 +226,18 @@ fn loss_notes(scan: &IfcScan, parts: &IfcParts, made: &ProcessingResult) -> Vec<
     let refused = scan.malformed.max(made.stats.refused_input_elements);
     if refused > 0 {
         let what = match refused {
-            1 => "has 1 record that cannot be read, and what it describes is missing".to_owned(),
-            many => format!("has {many} records that cannot be read, and what they describe is missing"),
+            1 => "has 1 record that cannot be read, so what it describes is missing".to_owned(),
+            many => format!("has {many} records that cannot be read, so what they describe is missing"),
         };
         notes.push(message![what; "export it again"]);
     }
     if parts.cut_names > 0 {
-        notes.push(message![format!("has names of more than 1000 bytes ({}), which are cut", parts.cut_names)]);
+        notes.push(message![format!("has names of more than 1000 bytes ({}), which are shortened", parts.cut_names)]);
     }
     notes
 }
 
-/// What does not stand there, and what is hidden or broken.
+/// What was not built, what is hidden, and what is broken.
 fn left_out(scan: &IfcScan, parts: &IfcParts) -> Vec<LeftOut> {
     let mut apart: Vec<LeftOut> = scan
         .apart
@@ -251,13 +251,13 @@ fn left_out(scan: &IfcScan, parts: &IfcParts) -> Vec<LeftOut> {
         why: "switched off or frozen in the file".to_owned(),
     }));
     if parts.broken > 0 {
-        let why = "a corner is no point".to_owned();
+        let why = "a corner is not a point".to_owned();
         apart.push(LeftOut { what: "shape".to_owned(), count: parts.broken, why });
     }
     apart
 }
 
-/// Records of kinds that the reader does not know, where they have a shape.
+/// Records of types that the reader does not know, if they have a shape.
 fn unknown(scan: &IfcScan, decoder: &mut EntityDecoder) -> Vec<LeftOut> {
     let mut counts: BTreeMap<&str, u64> = BTreeMap::new();
     for (name, shape) in &scan.unknown {

@@ -1,4 +1,4 @@
-//! A file → its text: the file itself, or the `.ifc` within a zip archive. The content decides which it is, not the
+//! Reads a file's text: the file itself, or the `.ifc` within a zip archive. The contents decide which it is, not the
 //! file's name.
 
 use crate::formats::ModelFault;
@@ -8,7 +8,7 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
-/// As much as the reader's own 32-bit positions can say.
+/// The greatest length for the reader's 32-bit positions.
 const MAX_TEXT_BYTES: u64 = u32::MAX as u64;
 
 /// The text of a file, and the entries of its archive that were not read.
@@ -17,11 +17,11 @@ pub(super) struct IfcText {
     pub ignored: Vec<String>,
 }
 
-/// Reads a file, and what is in it where it is an archive.
+/// Reads a file, or the model in it if it is an archive.
 pub(super) fn read(path: &Path) -> Result<IfcText, ModelFault> {
     let length = std::fs::metadata(path).map_err(ModelFault::unreadable)?.len();
     if length > MAX_TEXT_BYTES {
-        let what = format!("has {} MiB, and an IFC file may have 4095", length >> 20);
+        let what = format!("has {} MiB, but an IFC file may have at most 4095", length >> 20);
         return Err(message![what; "export it storey by storey"].into());
     }
     let mut bytes = Vec::new();
@@ -36,7 +36,7 @@ pub(super) fn read(path: &Path) -> Result<IfcText, ModelFault> {
     Ok(IfcText { bytes, ignored: Vec::new() })
 }
 
-/// The first IFC file of an archive.
+/// Unpacks the first IFC file of an archive.
 fn unzipped(bytes: &[u8]) -> Result<IfcText, ModelFault> {
     let archive = ModelArchive::open(bytes, ".ifc")?;
     let mut models = archive.models();

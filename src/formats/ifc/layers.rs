@@ -1,5 +1,5 @@
-//! Layers that the file has switched off or frozen: whoever drew the model does not see what lies on them alone. Also
-//! the names of layers with a style, which the reader does not report.
+//! Layers that are switched off or frozen: the author does not see what is only on them. Also the names of layers with
+//! a style, which the reader does not report.
 
 use super::lost::is_solid;
 use super::scan::{IfcProduct, IfcScan};
@@ -8,26 +8,26 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-/// What lies on which layer.
+/// The layers of items.
 #[derive(Default)]
 pub(super) struct IfcLayers {
-    /// Representations and their items on hidden layers, each with its layer's name.
+    /// The hidden layer of representations and items, by name.
     on: FxHashMap<u32, Rc<str>>,
-    /// The same of layers with a style that are shown.
+    /// The same for visible layers with a style.
     styled: FxHashMap<u32, Rc<str>>,
-    /// The products whose whole shape lies on hidden layers.
+    /// The products whose whole shape is on hidden layers.
     pub products: FxHashSet<u32>,
-    /// The number of them on each hidden layer, including pieces of others.
+    /// The number of those on each hidden layer, including pieces of other products.
     pub counts: BTreeMap<Rc<str>, u64>,
 }
 
-/// Whether an attribute of three values is one of them.
+/// Whether a three-valued attribute has a value.
 fn says(layer: &DecodedEntity, at: usize, value: &str) -> bool {
     layer.get(at).and_then(|attribute| attribute.as_enum()).is_some_and(|said| said.eq_ignore_ascii_case(value))
 }
 
 impl IfcLayers {
-    /// Those of a file.
+    /// Reads the layers of a file.
     pub(super) fn of(scan: &IfcScan, decoder: &mut EntityDecoder) -> Self {
         let mut layers = IfcLayers::default();
         let mut shown = FxHashSet::default();
@@ -38,7 +38,7 @@ impl IfcLayers {
             let named = items.iter().map(|&item| (item, name.clone()));
             if layer.ifc_type != IfcType::IfcPresentationLayerWithStyle {
                 shown.extend(items);
-            // LayerOn and LayerFrozen; what is unknown is seen
+            // LayerOn and LayerFrozen; unknown means visible
             } else if says(&layer, 4, "F") || says(&layer, 5, "T") {
                 layers.on.extend(named);
             } else {
@@ -58,7 +58,7 @@ impl IfcLayers {
         layers
     }
 
-    /// The name of the layer with a style on which an item lies, or else the shape of its product.
+    /// The name of the styled layer of an item, otherwise of its product's shape.
     pub(super) fn styled(&self, item: Option<u32>, shape: u32, decoder: &mut EntityDecoder) -> Option<String> {
         if self.styled.is_empty() {
             return None;
@@ -81,13 +81,13 @@ impl IfcLayers {
         *self.counts.entry(layer.clone()).or_default() += 1;
     }
 
-    /// Whether an item lies on a hidden layer; if so, it is counted.
+    /// Whether an item is on a hidden layer; if so, it is counted.
     pub(super) fn hides(&mut self, item: Option<u32>) -> bool {
         let layer = item.and_then(|item| self.on.get(&item)).cloned();
         layer.inspect(|layer| self.count(layer)).is_some()
     }
 
-    /// The hidden layer on which all of a product's solid shape lies.
+    /// The hidden layer that a product's whole solid shape is on.
     fn whole(&self, product: &IfcProduct, decoder: &mut EntityDecoder) -> Option<Rc<str>> {
         if let Some(layer) = self.on.get(&product.shape) {
             return Some(layer.clone());
@@ -103,7 +103,7 @@ impl IfcLayers {
         layer
     }
 
-    /// The hidden layer of a representation: its own, or that of all its items or of what they repeat.
+    /// The hidden layer of a representation: its own, or that of all its items or mapped representations.
     fn representation(&self, id: u32, representation: &DecodedEntity, decoder: &mut EntityDecoder) -> Option<Rc<str>> {
         if let Some(layer) = self.on.get(&id) {
             return Some(layer.clone());
@@ -116,7 +116,7 @@ impl IfcLayers {
         layer
     }
 
-    /// The hidden layer of what an item repeats.
+    /// The hidden layer of an item's mapped representation.
     fn repeated(&self, item: u32, decoder: &mut EntityDecoder) -> Option<Rc<str>> {
         let item = decoder.decode_by_id(item).ok()?;
         if item.ifc_type != IfcType::IfcMappedItem {

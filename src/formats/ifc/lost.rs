@@ -1,31 +1,31 @@
-//! Products that have a shape in the file but no triangles. The kind of their shape is reported, so that whoever
-//! exported the file can tell what was lost.
+//! Products that have a shape in the file but no triangles. The kind of shape is reported, so that the author of the
+//! file can tell what is missing.
 
 use super::super::LeftOut;
 use super::scan::IfcProduct;
 use ifc_lite_core::{DecodedEntity, EntityDecoder, IfcType};
 use std::collections::BTreeMap;
 
-/// How deep operands and repeated shapes are followed to name what they are made of.
+/// How deeply operands and mapped shapes are followed to name their contents.
 const MAX_DEPTH: usize = 16;
 
-/// Representations that are no body: axes, plans, boxes and the like.
+/// Representations that are not bodies: axes, plans, boxes and the like.
 const NOT_SOLID: [&str; 10] =
     ["Axis", "FootPrint", "Box", "Annotation", "Plan", "Profile", "Reference", "CoG", "Clearance", "Lighting"];
 
-/// Whether a representation may be of a body.
+/// Whether a representation may be a body.
 pub(super) fn is_solid(representation: &DecodedEntity) -> bool {
     let identifier = representation.get_string(1).unwrap_or_default();
     !NOT_SOLID.iter().any(|other| identifier.eq_ignore_ascii_case(other))
 }
 
-/// Why a product has no triangles whose shape is not to be found in the file.
+/// Why a product has no triangles if its shape is missing in the file.
 const MISSING: &str = "the records of the shape are missing";
 
-/// Why one has none that has no body.
+/// Why a product has no triangles if it has no body.
 const NO_BODY: &str = "only lines, boxes or points";
 
-/// The products without triangles, by type and by what their shape is.
+/// The products without triangles, by type and by kind of shape.
 pub(super) fn left_out(lost: &[&IfcProduct], decoder: &mut EntityDecoder) -> Vec<LeftOut> {
     let mut counts: BTreeMap<(String, String), u64> = BTreeMap::new();
     for product in lost {
@@ -35,7 +35,7 @@ pub(super) fn left_out(lost: &[&IfcProduct], decoder: &mut EntityDecoder) -> Vec
     counts.into_iter().map(|((what, why), count)| LeftOut { what, count, why }).collect()
 }
 
-/// What can be done where nothing at all has triangles, by what most products lack.
+/// What to do if no product has triangles, by what most products lack.
 pub(super) fn way_out(lost: &[LeftOut]) -> &'static str {
     let of = |why: &str| lost.iter().filter(|left| left.why == why).map(|left| left.count).sum::<u64>();
     let all: u64 = lost.iter().map(|left| left.count).sum();
@@ -43,14 +43,14 @@ pub(super) fn way_out(lost: &[LeftOut]) -> &'static str {
     if missing > 0 && missing >= all - missing {
         "the records of their shapes are missing in the file: export it again"
     } else if no_body >= all - no_body {
-        "it has lines, boxes or points alone: export it with shapes as solids or as meshes"
+        "it has only lines, boxes or points: export it with shapes as solids or as meshes"
     } else {
         "the reader cannot build these shapes: export them as meshes, or check the file with the program that wrote it"
     }
 }
 
-/// Why a product has no triangles: what the first item of its body is made of, `IfcExtrudedAreaSolid of
-/// IfcEllipseProfileDef`, which could not be built; or that there is none.
+/// Why a product has no triangles: the contents of its body's first item, such as `IfcExtrudedAreaSolid of
+/// IfcEllipseProfileDef`, which could not be built; or that there is no body.
 fn why(shape: u32, decoder: &mut EntityDecoder) -> String {
     let Ok(shape) = decoder.decode_by_id(shape) else { return MISSING.to_owned() };
     let mut is_missing = false;
@@ -90,7 +90,7 @@ fn item_name(item: u32, decoder: &mut EntityDecoder) -> String {
             _ if record.ifc_type.is_subtype_of(IfcType::IfcSweptAreaSolid) => record.get_ref(0),
             _ => None,
         };
-        // a chain of equal cuts is one name
+        // a chain of cuts is named once
         let name = record.ifc_type.name().to_owned();
         if names.last() != Some(&name) {
             names.push(name);

@@ -1,7 +1,6 @@
-//! The beginning and the end of IFC files, by which they are told from other files, and complete ones from those that
-//! are cut off.
+//! Recognises IFC files by their beginning, and complete ones by their end.
 
-/// Whether a file begins as STEP text whose schema is one of IFC. Other programs write other schemas in the same form.
+/// Whether a file begins as STEP text with an IFC schema. Other programs write other schemas in the same form.
 pub(super) fn is_ifc_text(head: &[u8]) -> bool {
     let text = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head).trim_ascii_start();
     let Some(header) = text.strip_prefix(b"ISO-10303-21") else { return false };
@@ -11,8 +10,8 @@ pub(super) fn is_ifc_text(head: &[u8]) -> bool {
     list.windows(3).any(|word| word.eq_ignore_ascii_case(b"IFC"))
 }
 
-/// Whether a text ends as STEP has it: the end of its data, and that of the file. What was cut off while it was copied or
-/// written lacks them, though every record before may be whole.
+/// Whether a text has the ends of a STEP file's data and of the file. A truncated file lacks them, although all of its
+/// records may be whole.
 #[cfg(feature = "ifc")]
 pub(super) fn is_whole(text: &[u8]) -> bool {
     ["ENDSEC", ";", "END-ISO-10303-21", ";"]
@@ -22,14 +21,14 @@ pub(super) fn is_whole(text: &[u8]) -> bool {
         .is_some()
 }
 
-/// A text without the word at its end; none where that is another one.
+/// The text before a final word; `None` if it ends differently.
 #[cfg(feature = "ifc")]
 fn before<'a>(text: &'a [u8], word: &[u8]) -> Option<&'a [u8]> {
     let (before, end) = text.split_at_checked(text.len().checked_sub(word.len())?)?;
     end.eq_ignore_ascii_case(word).then_some(before)
 }
 
-/// A text without the blanks and comments at its end; old programs end a file with the control character of their system.
+/// The text without trailing blanks and comments. Old programs end a file with their system's control character.
 #[cfg(feature = "ifc")]
 fn without_blanks(mut text: &[u8]) -> &[u8] {
     loop {

@@ -1,11 +1,11 @@
-//! IFC → parts. `ifc-lite` reads the text and builds the shapes; which of them are taken, their names and their places
-//! are decided here.
+//! Reads IFC. `ifc-lite` parses the text and builds the shapes; this folder decides which of them are used, their names
+//! and their places.
 //!
-//! The reader is another library, in the feature `ifc`; without it a file of the format is one error. The files of this
-//! folder, in the order of the flow: `marks` (whether a file is IFC, and complete), `container` (a file, zipped or not
-//! → its text), `scan` (text → which records matter), `layers` (which of them are off), `relations` (storeys and
-//! materials), `parts` (shapes → parts), `lost` (products without triangles), `anchors` (where the file's zero lies),
-//! `build` (all of it → the model).
+//! The reader is another library, in the feature `ifc`; without it, an IFC file is an error. The files of this folder,
+//! in the order of the flow: `marks` (recognises complete IFC files), `container` (finds the text in a file, zipped or
+//! not), `scan` (finds the relevant records), `layers` (finds hidden layers), `relations` (storeys and materials),
+//! `parts` (makes parts of shapes), `lost` (products without triangles), `anchors` (where the origin lies), and `build`
+//! (makes the model).
 
 #[cfg(feature = "ifc")]
 mod anchors;
@@ -54,7 +54,7 @@ impl Format for Ifc {
     #[cfg(not(feature = "ifc"))]
     fn read(&self, _path: &Path, _options: &ReadOptions) -> Result<Model, ModelFault> {
         Err(crate::message::message![
-            "is IFC, and this gnomon was built without its reader";
+            "is IFC, but this gnomon was built without a reader for it";
             "build it with the feature ifc, or export the model as glTF"
         ]
         .into())

@@ -12,22 +12,22 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A longer name is cut: nobody can mean it.
+/// The longest name; longer ones are cut.
 const MAX_NAME_BYTES: usize = 1000;
 
-/// What a translucent style is called that has no name.
+/// The name of a translucent style without a name.
 const TRANSLUCENT: &str = "translucent";
 
-/// Gathers parts while the reader makes shapes.
+/// Collects parts while the reader builds shapes.
 pub(super) struct IfcParts<'a> {
-    /// Type and shape of each product.
+    /// The type and shape of each product.
     asked: FxHashMap<u32, (IfcType, u32)>,
     decoder: EntityDecoder<'a>,
     relations: IfcRelations,
     pub layers: IfcLayers,
-    /// Where the reader's zero lies, and how its axes are turned.
+    /// The origin and rotation of the reader's coordinates.
     frame: MeshFrame,
-    /// Stops the reader when there are too many.
+    /// Stops the reader when there are too many parts.
     pub stop: Arc<AtomicBool>,
     triangles: u64,
     pub parts: Vec<Part>,
@@ -35,9 +35,9 @@ pub(super) struct IfcParts<'a> {
     pub see_through: Vec<SeeThrough>,
     /// The products that have triangles, including hidden ones.
     pub meshed: FxHashSet<u32>,
-    /// The number of meshes with corners that are not points.
+    /// The number of meshes with invalid corners.
     pub broken: u64,
-    /// The number of names that were cut.
+    /// The number of names that were shortened.
     pub cut_names: u64,
 }
 
@@ -47,7 +47,7 @@ impl ProcessingSink for IfcParts<'_> {
     }
 
     fn on_batch(&mut self, meshes: &[MeshData], _done: usize, _all: usize) {
-        // all meshes of a product come one after another
+        // the meshes of a product are consecutive
         for of_product in meshes.chunk_by(|one, other| one.express_id == other.express_id) {
             self.add(of_product);
         }
@@ -81,7 +81,7 @@ impl<'a> IfcParts<'a> {
         }
     }
 
-    /// A product's meshes by style, in the order of its shape; and whether light passes.
+    /// A product's meshes by style, in the order of its shape, and whether each is see-through.
     fn by_style<'m>(
         &mut self,
         meshes: &'m [MeshData],
@@ -107,7 +107,7 @@ impl<'a> IfcParts<'a> {
         of_style
     }
 
-    /// Adds a product: one part a material.
+    /// Adds a product: one part for each material.
     fn add(&mut self, meshes: &[MeshData]) {
         let Some(product) = meshes.first() else { return };
         let Some((kind, shape)) = self.asked.get(&product.express_id).cloned() else { return };
@@ -118,7 +118,7 @@ impl<'a> IfcParts<'a> {
         let materials = self.relations.materials(product.express_id, &mut self.decoder);
         let storey = self.relations.storey(product.express_id, &mut self.decoder);
         for (style, is_translucent, meshes) in of_style {
-            // one material that has no style names all of the product
+            // a single material names the whole product if its meshes have no style
             let material = style.or_else(|| materials.first().filter(|_| materials.len() == 1).cloned());
             let material = material.map(|name| self.named(&name));
             let name = match &material {
@@ -148,7 +148,7 @@ impl<'a> IfcParts<'a> {
         }
     }
 
-    /// Notes that the next part is of a material that light passes.
+    /// Records that the next part has a see-through material.
     fn see_through(&mut self, material: String) {
         let part = self.parts.len();
         match self.see_through.iter_mut().find(|known| known.material == material) {
@@ -157,7 +157,7 @@ impl<'a> IfcParts<'a> {
         }
     }
 
-    /// A name in normal form, and cut where it is too long.
+    /// A name in normal form, shortened if it is too long.
     fn named(&mut self, name: &str) -> String {
         let name = composed(name.trim());
         if name.len() <= MAX_NAME_BYTES {
@@ -168,7 +168,7 @@ impl<'a> IfcParts<'a> {
         name[..end].to_owned()
     }
 
-    /// Meshes as one part, out of the reader's frame.
+    /// Joins meshes to one part, in the file's coordinates.
     fn part(&mut self, name: String, aliases: Vec<String>, meshes: &[&MeshData]) -> Part {
         let to_file = self.frame.world_mapper();
         let corners = meshes.iter().map(|mesh| mesh.positions.len() / 3).sum();
@@ -180,7 +180,7 @@ impl<'a> IfcParts<'a> {
             coarse: Vec::new(),
         };
         for mesh in meshes {
-            // `is_sound` has counted the corners within 32 bits; their sum is asked here
+            // `is_sound` checked each mesh's corners; their sum must fit in 32 bits, too
             let Ok(first) = u32::try_from(part.positions.len()) else { break };
             let (corners, _) = mesh.positions.as_chunks::<3>();
             let Ok(last) = u32::try_from(part.positions.len() + corners.len()) else { break };
@@ -210,7 +210,7 @@ impl<'a> IfcParts<'a> {
     }
 }
 
-/// Whether a mesh's corners are points, and its triangles have corners that are there.
+/// Whether a mesh's corners are finite, and its triangles have valid indices.
 fn is_sound(mesh: &MeshData) -> bool {
     let corners = u32::try_from(mesh.positions.len() / 3).unwrap_or(0);
     mesh.positions.iter().all(|number| number.is_finite())
@@ -218,13 +218,14 @@ fn is_sound(mesh: &MeshData) -> bool {
         && mesh.indices.iter().all(|&corner| corner < corners)
 }
 
-/// From one number to the next where a mesh reaches farthest from its own zero.
+/// The step between neighbouring numbers at a mesh's farthest point from its own origin.
 fn step(mesh: &MeshData) -> f64 {
     let farthest = mesh.positions.iter().fold(0.0_f32, |farthest, number| farthest.max(number.abs()));
     f64::from(farthest.next_up()) - f64::from(farthest)
 }
 
-/// The name of a mesh's style. The reader makes names up for parts of windows and doors without one.
+/// The name of a mesh's style. For parts of windows and doors without a style the reader invents names, which are
+/// ignored.
 fn style_name(mesh: &MeshData) -> Option<String> {
     let name = mesh.material_name.as_deref()?.trim();
     let is_made_up = ["Window_Glass", "Door_Glass"].contains(&name)
@@ -232,7 +233,7 @@ fn style_name(mesh: &MeshData) -> Option<String> {
     (!name.is_empty() && !is_made_up).then(|| name.to_owned())
 }
 
-/// Whether the file says that light passes. The reader has translucent colours of its own for kinds without a style.
+/// Whether the file says that a mesh is translucent. For types without a style the reader invents translucent colours.
 fn is_translucent(mesh: &MeshData, kind: &IfcType) -> bool {
     mesh.color[3] < 1.0 && mesh.color != default_color_for_type(kind.clone()).to_array()
 }

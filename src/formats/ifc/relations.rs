@@ -1,36 +1,36 @@
-//! The storey and the materials of a product: names by which its parts can be selected.
+//! The storey and the materials of a product: names that select its parts.
 
 use super::scan::IfcScan;
 use ifc_lite_core::{DecodedEntity, EntityDecoder, IfcType};
 use rustc_hash::FxHashMap;
 
-/// How deep wholes and parts are followed; a file may go in circles.
+/// How deeply wholes and parts are followed; a file may contain cycles.
 const MAX_DEPTH: usize = 64;
 
-/// The most materials that one product's set may have; each is a name by which it can be selected.
+/// The most materials in a product's set; each is a name that selects it.
 const MAX_MATERIALS: usize = 64;
 
 /// What products belong to.
 #[derive(Default)]
 pub(super) struct IfcRelations {
-    /// The whole or the place of a product.
+    /// The whole, or the spatial container, of a product.
     above: FxHashMap<u32, u32>,
-    /// The record that says its materials.
+    /// The record of its materials.
     material: FxHashMap<u32, u32>,
     storeys: FxHashMap<u32, Option<String>>,
     names: FxHashMap<u32, Vec<String>>,
 }
 
-/// A name that says something.
+/// A name that is not empty.
 fn name_of(record: &DecodedEntity, at: usize) -> Option<String> {
     ifc_lite_core::optional_text(record.get_string(at)).map(str::to_owned)
 }
 
 impl IfcRelations {
-    /// Those of a file.
+    /// Reads the relations of a file.
     pub(super) fn of(scan: &IfcScan, decoder: &mut EntityDecoder) -> Self {
         let mut relations = IfcRelations::default();
-        // where something is contained counts before what it is a part of
+        // containment has priority over aggregation
         for (records, above, below) in [(&scan.containing, 5, 4), (&scan.composing, 4, 5)] {
             for &id in records {
                 let Ok(record) = decoder.decode_by_id(id) else { continue };
@@ -48,7 +48,7 @@ impl IfcRelations {
         relations
     }
 
-    /// The name of the storey that a product stands in, or of the part of a bridge or road.
+    /// The name of a product's storey, or of its part of a bridge or road.
     pub(super) fn storey(&mut self, product: u32, decoder: &mut EntityDecoder) -> Option<String> {
         let mut at = product;
         for _ in 0..MAX_DEPTH {
@@ -66,14 +66,14 @@ impl IfcRelations {
         None
     }
 
-    /// The names of a product's materials, those of its set's layers too.
+    /// The names of a product's materials, including those of its layer set.
     pub(super) fn materials(&mut self, product: u32, decoder: &mut EntityDecoder) -> Vec<String> {
         let Some(&record) = self.material.get(&product) else { return Vec::new() };
         self.names.entry(record).or_insert_with(|| material_names(record, decoder)).clone()
     }
 }
 
-/// The names of the materials behind a record, which may be a usage of a set of layers of materials.
+/// The names of the materials of a record, which may be a usage of a set of layers of materials.
 fn material_names(record: u32, decoder: &mut EntityDecoder) -> Vec<String> {
     let mut names = Vec::new();
     let mut open = vec![(record, 0)];

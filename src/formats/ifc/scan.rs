@@ -1,32 +1,32 @@
-//! The file's text → which of its records matter here, and where each record lies: one pass, before shapes are built.
+//! Finds the relevant records in a file's text, and the position of each record, in one pass before shapes are built.
 
 use ifc_lite_core::{EntityDecoder, EntityIndex, EntityScanner, IfcType};
 use rustc_hash::FxHashMap;
 use std::sync::Arc;
 
-/// What a file has.
+/// The contents of a file.
 #[derive(Default)]
 pub(super) struct IfcScan {
-    /// Where each record lies.
+    /// The position of each record.
     pub index: Arc<EntityIndex>,
-    /// The products that are built or may be, in the file's order.
+    /// The products that are or may be built, in file order.
     pub products: Vec<IfcProduct>,
-    /// The number of products with a shape, of kinds that are not built.
+    /// The number of products with a shape, of types that are not built.
     pub apart: FxHashMap<String, u64>,
-    /// Records of kinds that the reader does not know, each with the record that would be its shape.
+    /// Records of types that the reader does not know, each with the record that would be its shape.
     pub unknown: Vec<(String, u32)>,
     /// Relations of containment and of aggregation, whose records are read later.
     pub containing: Vec<u32>,
     pub composing: Vec<u32>,
     pub materials: Vec<u32>,
-    /// Layers; those with a style may be off.
+    /// The layers; those with a style may be off.
     pub layers: Vec<u32>,
     pub styled_layers: Vec<u32>,
     pub sites: Vec<u32>,
     pub contexts: Vec<u32>,
-    /// Records that may say where the model lies on a map.
+    /// Records that may give the model's position on a map.
     pub georeference: Vec<(u32, IfcType)>,
-    /// Records with an old name at the end of a shape: the range of their keyword.
+    /// The keyword positions of shapes that have an old name.
     pub old_shapes: Vec<(usize, usize)>,
     /// The number of records that could not be parsed.
     pub malformed: u64,
@@ -39,7 +39,7 @@ pub(super) struct IfcProduct {
     pub shape: u32,
 }
 
-/// What a keyword means here.
+/// The relevance of a keyword.
 #[derive(Clone, PartialEq)]
 enum RecordClass {
     Product { kind: IfcType, stands: bool },
@@ -55,10 +55,10 @@ enum RecordClass {
     Other,
 }
 
-/// The keyword that old exporters write for IFCPRODUCTDEFINITIONSHAPE, its supertype.
+/// The keyword that old exporters write instead of IFCPRODUCTDEFINITIONSHAPE, its subtype.
 const OLD_SHAPE: &str = "IFCPRODUCTREPRESENTATION";
 
-/// Kinds of products that are not there to be seen: rooms, holes, ideas and helps.
+/// Types of products that are not physical: rooms, openings, annotations and the like.
 fn stands_apart(kind: &IfcType) -> bool {
     use IfcType as Kind;
     [
@@ -107,7 +107,7 @@ fn class_of(keyword: &str) -> RecordClass {
     }
 }
 
-/// Walks a file's text.
+/// Scans a file's text.
 pub(super) fn scan(text: &[u8]) -> IfcScan {
     let mut scan = IfcScan::default();
     let mut index = EntityIndex::default();
@@ -153,13 +153,13 @@ pub(super) fn scan(text: &[u8]) -> IfcScan {
     scan
 }
 
-/// Where a record's keyword lies in the text.
+/// The position of a record's keyword in the text.
 fn keyword_in(text: &[u8], keyword: &str, start: usize) -> Option<(usize, usize)> {
     let at = text.get(start..)?.windows(keyword.len()).position(|word| word == keyword.as_bytes())?;
     Some((start + at, start + at + keyword.len()))
 }
 
-/// The text in which shapes of the old name have the one that the reader knows; their attributes are the same.
+/// The text with the old names of shapes replaced by the one that the reader knows. Their attributes are the same.
 pub(super) fn renamed(text: &[u8], old_shapes: &[(usize, usize)]) -> Vec<u8> {
     let mut renamed = Vec::with_capacity(text.len() + old_shapes.len());
     let mut from = 0;

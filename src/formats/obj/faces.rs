@@ -1,4 +1,4 @@
-//! The lines of an OBJ file → its vertices, and its triangles by object, group and material.
+//! Reads the lines of an OBJ file as vertices, and as triangles by object, group and material.
 
 use crate::formats::face_cutter::FaceCutter;
 use crate::formats::left_out::{LeftOutTally, label};
@@ -9,7 +9,7 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 use std::borrow::Cow;
 
-/// Triangles of one object, group and material, by the file's vertices; names by their numbers, of which 0 is none.
+/// The triangles of one object, group and material, as the file's vertices. Names are indices; 0 means none.
 pub(super) struct ObjTriangles {
     pub object: u32,
     pub group: u32,
@@ -17,13 +17,13 @@ pub(super) struct ObjTriangles {
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// What an OBJ file says.
+/// The contents of an OBJ file.
 pub(super) struct ObjGeometry {
     pub positions: Vec<DVec3>,
     pub parts: Vec<ObjTriangles>,
     /// The names of objects, groups and materials.
     pub names: Vec<String>,
-    /// The files that `mtllib` names, one line each.
+    /// The files named by `mtllib`, one line each.
     pub libraries: Vec<String>,
     pub cutter: FaceCutter,
     pub left_out: LeftOutTally,
@@ -31,7 +31,7 @@ pub(super) struct ObjGeometry {
     pub odd_number: Option<(usize, String)>,
     numbers_of: FxHashMap<String, u32>,
     part_of: FxHashMap<[u32; 3], usize>,
-    /// Object, group and material of what follows, and the part of that, once it has a face.
+    /// The current object, group and material, and the index of their triangles once there are some.
     at: [u32; 3],
     part: Option<usize>,
     corners: Vec<u32>,
@@ -78,11 +78,11 @@ impl ObjGeometry {
                 Ok(())
             }
             b"l" | b"p" => {
-                self.left_out.add(if word == b"l" { "lines" } else { "points" }, "no surface");
+                self.left_out.add(if word == b"l" { "lines" } else { "points" }, "they have no surface");
                 Ok(())
             }
             b"curv" | b"curv2" | b"surf" => {
-                self.left_out.add("free-form curves and surfaces", "meshes are read alone: export it as a mesh");
+                self.left_out.add("free-form curves and surfaces", "only meshes are read: export it as a mesh");
                 Ok(())
             }
             _ => Ok(()),
@@ -104,7 +104,7 @@ impl ObjGeometry {
         };
         let position = DVec3::new(next()?, next()?, next()?);
         if self.positions.len() >= u32::MAX as usize {
-            return Err(message!["has more than four thousand million vertices"; "export it in parts"]);
+            return Err(message!["has more than 4 billion vertices"; "export it in parts"]);
         }
         self.positions.push(position);
         Ok(())
@@ -152,7 +152,7 @@ impl ObjGeometry {
         Ok(())
     }
 
-    /// The vertex that a corner of a face names, `12/5/7` or `-1`: from 1, or backwards from the last one.
+    /// The vertex of a face's corner, `12/5/7` or `-1`: counted from 1, or backwards from the last one.
     fn corner(&self, word: &[u8], line: usize) -> Result<(u32, DVec3), Message> {
         let count = self.positions.len();
         let name = word.split(|&byte| byte == b'/').next().unwrap_or_default();
@@ -164,12 +164,12 @@ impl ObjGeometry {
             Some(corner) => Ok(corner),
             None => {
                 let name = label(&text(word));
-                Err(wrong_line(line, &format!("has a face at vertex {name}, where there are {count} vertices,")))
+                Err(wrong_line(line, &format!("has a face with vertex {name}, when there are {count} vertices,")))
             }
         }
     }
 
-    /// Goes on with another object, group or material.
+    /// Switches to another object, group or material.
     fn enter(&mut self, which: usize, rest: &[u8]) -> Result<(), Message> {
         let name = match which {
             1 => words(rest).map(|word| label(&text(word))).collect::<Vec<_>>().join(" "),
@@ -194,7 +194,7 @@ impl ObjGeometry {
     }
 }
 
-/// A line with those that continue it: it ends with a backslash where another follows.
+/// A line with its continuations: a backslash at its end continues it.
 fn whole_line<'a>(lines: &mut TextLines<'a>) -> Option<Cow<'a, [u8]>> {
     let first = lines.next()?;
     let Some(begun) = first.trim_ascii_end().strip_suffix(b"\\") else {
@@ -212,7 +212,7 @@ fn whole_line<'a>(lines: &mut TextLines<'a>) -> Option<Cow<'a, [u8]>> {
     Some(Cow::Owned(whole))
 }
 
-/// A number from 0, of digits alone.
+/// A number from 0, of digits only.
 fn whole(digits: &[u8]) -> Option<usize> {
     let add = |number: usize, digit: &u8| {
         let digit = digit.is_ascii_digit().then(|| usize::from(digit - b'0'))?;
@@ -221,7 +221,7 @@ fn whole(digits: &[u8]) -> Option<usize> {
     digits.iter().try_fold(0, add).filter(|_| !digits.is_empty())
 }
 
-/// The number at the beginning of a word that is none as a whole, as C's functions read it. A comma is not passed over: it
+/// The number at the beginning of a word that is not wholly a number, as C's functions read it. A comma is refused: it
 /// may be meant as a decimal point.
 fn odd_number(word: &[u8]) -> Option<f64> {
     if word.contains(&b',') || word.len() > 100 {
@@ -232,7 +232,7 @@ fn odd_number(word: &[u8]) -> Option<f64> {
 
 fn not_a_number(word: &[u8], line: usize) -> Message {
     let word = label(&text(word));
-    let what = format!("has `{word}` for a number in line {line}");
+    let what = format!("has `{word}` instead of a number in line {line}");
     if word.contains(',') {
         return message![what; "export it with decimal points: numbers have no commas in OBJ"];
     }

@@ -1,4 +1,4 @@
-//! Material libraries (MTL): which materials are see-through, and which files they name.
+//! Reads material libraries (MTL): which materials are see-through, and which files the libraries refer to.
 
 use crate::formats::left_out::label;
 use crate::formats::source::{TextLines, as_ascii, beside, keyword, number, text, words};
@@ -6,7 +6,7 @@ use crate::formats::whole::{whole_file, whole_named_file};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// The files that a line of libraries names: all of it, as names have blanks, and each word.
+/// The files that a line of libraries may mean: the whole line, as names have spaces, and each word.
 pub(super) fn beside_each(model: &Path, names: &str) -> Vec<PathBuf> {
     let mut found: Vec<PathBuf> = beside(model, names).into_iter().collect();
     let several = || names.split_ascii_whitespace();
@@ -33,7 +33,7 @@ pub(super) fn see_through(model: &Path, libraries: &[String]) -> (BTreeSet<Strin
     (faded, missing.into_iter().collect())
 }
 
-/// What a library says of how much light a material stops: `d` goes before `Tr`, which some programs write the other way.
+/// The opacity of a material: `d` has priority over `Tr`, which some programs write inverted.
 #[derive(Default)]
 struct Opacity {
     name: String,
@@ -49,7 +49,7 @@ impl Opacity {
     }
 }
 
-/// The names of a library's materials that light passes.
+/// The names of a library's see-through materials.
 fn materials(library: &[u8]) -> Vec<String> {
     let (mut faded, mut material) = (Vec::new(), Opacity::default());
     let mut close = |material: &mut Opacity, name: String| {
@@ -74,14 +74,14 @@ fn materials(library: &[u8]) -> Vec<String> {
     faded
 }
 
-/// The pictures that a library names; one that cannot be read names none.
+/// The images that a library refers to; empty if it cannot be read.
 pub(super) fn textures(library: &Path) -> Vec<PathBuf> {
     let Ok(source) = whole_file(library) else { return Vec::new() };
     let source = as_ascii(source);
     let named = TextLines::new(&source).filter_map(|line| {
         let (word, rest) = keyword(line)?;
         let is_map = word.starts_with(b"map_") || matches!(word, b"bump" | b"disp" | b"decal" | b"refl" | b"norm");
-        // options stand before the name
+        // options come before the name
         let words = || words(rest);
         let name = if words().next()?.starts_with(b"-") { text(words().last()?) } else { text(rest) };
         beside(library, &name).filter(|_| is_map)

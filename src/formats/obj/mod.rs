@@ -1,7 +1,7 @@
-//! Wavefront OBJ with its MTL → parts: one per object or group, and material.
+//! Reads Wavefront OBJ with its MTL: one part per object or group, and material.
 //!
-//! The reader is our own: `tobj` reads only UTF-8, stops at a number that it does not know, and does not cut polygons
-//! into triangles. `faces` reads the geometry, `material` the libraries.
+//! The reader is our own: `tobj` reads only UTF-8, stops at unknown numbers, and does not triangulate polygons. `faces`
+//! reads the geometry, `material` the libraries.
 
 mod faces;
 mod material;
@@ -29,7 +29,7 @@ impl Format for Obj {
         &["obj"]
     }
 
-    /// It begins with no mark of its own.
+    /// OBJ files have no magic number.
     fn begins(&self, _head: &[u8]) -> bool {
         false
     }
@@ -60,18 +60,20 @@ fn model_of(geometry: ObjGeometry, path: &Path) -> Model {
     model.left_out = tally.into_left_out();
     if !missing.is_empty() && model.parts.iter().any(|part| part.aliases.len() > 1) {
         model.notes.push(message![
-            format!("has its materials in {}, which cannot be read, so it is not known which of them light passes", few(missing));
-            "put the file beside the model if there is glass"
+            format!("has its materials in {}, which cannot be read, so it is not known which of them are see-through", few(missing));
+            "if there is glass, put the file beside the model"
         ]);
     }
     if let Some((line, word)) = odd_number {
-        let what = format!("has numbers that are none, the first in line {line}: `{word}` is read as far as it is one");
-        model.notes.push(message![what; "export it again if that is a coordinate"]);
+        let what = format!(
+            "has malformed numbers, the first in line {line}: `{word}` is read up to where it stops being a number"
+        );
+        model.notes.push(message![what; "if that is a coordinate, export it again"]);
     }
     model
 }
 
-/// The parts with their names, and which of them have a material that light passes.
+/// Makes the parts with their names, and finds those with a see-through material.
 fn build(
     positions: &[glam::DVec3],
     found: Vec<ObjTriangles>,

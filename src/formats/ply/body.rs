@@ -1,18 +1,18 @@
-//! A PLY file's tables: vertices, polygons and strips.
+//! Reads a PLY file's tables: vertices, polygons and strips.
 
 use super::header::{PlyElement, PlyEncoding, PlyHeader, PlyNumber, PlyProperty};
 use crate::formats::source::{number, words};
 use crate::message::{Message, message};
 use glam::DVec3;
 
-/// What is read of a file. Every vertex of a polygon or a strip is among the positions.
+/// The tables of a file. The vertices of polygons and strips are checked to be within the positions.
 pub(super) struct PlyTables {
     pub positions: Vec<DVec3>,
     pub polygons: PlyLists,
     pub strips: PlyLists,
 }
 
-/// Lists of vertices, one behind the other.
+/// Lists of vertices, one after another.
 #[derive(Default)]
 pub(super) struct PlyLists {
     vertices: Vec<u32>,
@@ -48,13 +48,13 @@ impl PlyTables {
         let count = tables.positions.len();
         let all = tables.polygons.vertices.iter().chain(&tables.strips.vertices);
         if let Some(vertex) = all.into_iter().find(|&&vertex| vertex as usize >= count) {
-            let what = format!("has a face at vertex {vertex}, and there are {count}");
+            let what = format!("has a face with vertex {vertex}, but there are only {count}");
             return Err(message![what; "the file is damaged: export it again"]);
         }
         Ok(tables)
     }
 
-    /// None where the file ends within the table, or has there what is no number.
+    /// Reads a table; `None` if the file ends within it, or has something else than a number.
     fn element(&mut self, element: &PlyElement, numbers: &mut dyn PlyNumbers) -> Option<Result<(), Message>> {
         match element.name.as_slice() {
             b"vertex" => {
@@ -75,7 +75,7 @@ impl PlyTables {
                 }
                 Some(positions_are_finite(&self.positions))
             }
-            // a table of nothing takes no bytes, so its rows are not counted out
+            // rows without properties take no bytes, so they are not iterated
             _ if element.properties.is_empty() => Some(Ok(())),
             name => {
                 let is_list = |property: &PlyProperty| {
@@ -116,7 +116,7 @@ fn damaged(element: &PlyElement) -> Message {
     message![what; "copy or export it again"]
 }
 
-/// The number of a property, or of a list that nobody reads some number.
+/// Reads the number of a property, or skips a list and returns an arbitrary number.
 fn cell(property: &PlyProperty, numbers: &mut dyn PlyNumbers) -> Option<f64> {
     let Some(length) = property.length else { return numbers.next(property.number) };
     let count = length_of(numbers.next(length)?)?;
@@ -140,7 +140,7 @@ fn polygon(length: PlyNumber, number: PlyNumber, numbers: &mut dyn PlyNumbers, i
     Some(())
 }
 
-/// A list of strips, each but the last of which ends at −1.
+/// Reads a list of strips; each except the last ends with −1.
 fn strip(length: PlyNumber, number: PlyNumber, numbers: &mut dyn PlyNumbers, into: &mut PlyLists) -> Option<()> {
     for _ in 0..length_of(numbers.next(length)?)? {
         match numbers.next(number)? {
@@ -152,12 +152,12 @@ fn strip(length: PlyNumber, number: PlyNumber, numbers: &mut dyn PlyNumbers, int
     Some(())
 }
 
-/// The numbers of a file, one behind the other.
+/// The numbers of a file in order.
 trait PlyNumbers {
-    /// The next one; none where the file ends, or has no number there.
+    /// The next number; `None` if the file ends, or has something else there.
     fn next(&mut self, number: PlyNumber) -> Option<f64>;
 
-    /// Leaves some out.
+    /// Skips some numbers.
     fn pass(&mut self, number: PlyNumber, count: u64) -> Option<()> {
         (0..count).try_for_each(|_| self.next(number).map(|_| ()))
     }
@@ -173,7 +173,7 @@ impl<'a, T: Iterator<Item = &'a [u8]>> PlyNumbers for WrittenNumbers<T> {
 
 struct StoredNumbers<'a> {
     rest: &'a [u8],
-    /// Whether the most significant byte comes first.
+    /// Whether the byte order is big-endian.
     big: bool,
 }
 

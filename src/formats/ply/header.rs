@@ -1,10 +1,10 @@
-//! A PLY file's header: its tables, and the types of their numbers.
+//! Reads a PLY file's header: its tables, and the types of their numbers.
 
 use crate::formats::left_out::label;
 use crate::formats::source::{TextLines, text, words};
 use crate::message::{Message, message};
 
-/// How a file's numbers are written.
+/// How a file's numbers are stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PlyEncoding {
     Ascii,
@@ -40,7 +40,7 @@ impl PlyNumber {
         })
     }
 
-    /// How many bytes it takes.
+    /// Its size in bytes.
     pub(super) fn bytes(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
@@ -51,7 +51,7 @@ impl PlyNumber {
     }
 }
 
-/// What each row of a table has.
+/// A value in each row of a table.
 pub(super) struct PlyProperty {
     pub name: Vec<u8>,
     /// For a list, the type of its length.
@@ -59,21 +59,20 @@ pub(super) struct PlyProperty {
     pub number: PlyNumber,
 }
 
-/// A table.
 pub(super) struct PlyElement {
     pub name: Vec<u8>,
     pub rows: u64,
     pub properties: Vec<PlyProperty>,
 }
 
-/// What a file holds.
+/// The contents of a header.
 pub(super) struct PlyHeader {
     pub encoding: PlyEncoding,
     pub elements: Vec<PlyElement>,
 }
 
 impl PlyHeader {
-    /// The header, and what follows it.
+    /// Reads the header. Returns the bytes after it, too.
     pub(super) fn read(bytes: &[u8]) -> Result<(Self, &[u8]), Message> {
         let damaged = |what: String| message![what; "the file is damaged or was edited: export it again"];
         let (mut encoding, mut elements) = (None, Vec::<PlyElement>::new());
@@ -112,7 +111,7 @@ impl PlyHeader {
                     };
                     element.properties.push(property);
                 }
-                // comments, and what programs write there without saying that it is one
+                // comments, and lines that programs write without marking them as comments
                 _ => (),
             }
         }
@@ -122,7 +121,7 @@ impl PlyHeader {
         Ok((Self { encoding, elements }, rest))
     }
 
-    /// Whether coordinates are floats of single precision, as bytes.
+    /// Whether coordinates are stored as single-precision floats.
     pub(super) fn has_floats(&self) -> bool {
         let vertex = self.elements.iter().find(|element| element.name == b"vertex");
         let is_float = |property: &PlyProperty| property.name == b"x" && property.number == PlyNumber::F32;
@@ -139,7 +138,7 @@ fn property<'a>(parts: &mut impl Iterator<Item = &'a [u8]>) -> Option<PlyPropert
     Some(PlyProperty { name: parts.next()?.to_vec(), length, number })
 }
 
-/// What follows a line of some bytes and its end.
+/// The bytes after a line of a length and its end.
 fn behind(text: &[u8], line: usize) -> &[u8] {
     let end = text.get(line..).unwrap_or_default();
     end.strip_prefix(b"\r\n").or_else(|| end.get(1..)).unwrap_or_default()

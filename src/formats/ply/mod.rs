@@ -1,6 +1,6 @@
-//! PLY, ASCII or binary of either byte order → one part.
+//! Reads PLY, ASCII or binary of either byte order, as one part.
 //!
-//! `header` reads which tables the file has, `body` reads the numbers.
+//! `header` finds the tables of the file, `body` reads the numbers.
 
 mod body;
 mod header;
@@ -45,8 +45,8 @@ impl Format for Ply {
 fn model_of(tables: PlyTables, path: &Path, has_floats: bool, options: &ReadOptions) -> Result<Model, Message> {
     let PlyTables { positions, polygons, strips } = tables;
     if polygons.is_empty() && strips.is_empty() && !positions.is_empty() {
-        let what = format!("is a cloud of {} points without faces, and points cast no shadow", positions.len());
-        return Err(message![what; "make a mesh of it, or take terrain from it as a raster or TIN"]);
+        let what = format!("is a cloud of {} points without faces, but points cast no shadow", positions.len());
+        return Err(message![what; "make a mesh from it, or for terrain a raster or a TIN"]);
     }
     let (mut cutter, mut tally) = (FaceCutter::new(), LeftOutTally::default());
     let mut triangles: Vec<[u32; 3]> = Vec::new();
@@ -77,7 +77,7 @@ fn model_of(tables: PlyTables, path: &Path, has_floats: bool, options: &ReadOpti
     Ok(model)
 }
 
-/// The triangles of a strip, every second of which runs the other way; those that only join others are left out.
+/// The triangles of a strip. Every second one has the opposite winding; degenerate ones are left out.
 pub(super) fn of_strip(strip: &[u32]) -> impl Iterator<Item = [u32; 3]> {
     strip.windows(3).enumerate().filter_map(|(at, three)| match *three {
         [a, b, c] if a != b && b != c && c != a => Some(if at % 2 == 0 { [a, b, c] } else { [b, a, c] }),

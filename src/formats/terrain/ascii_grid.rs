@@ -1,4 +1,4 @@
-//! Esri's ASCII grid: a header of names and numbers, then heights, the northernmost row first.
+//! Reads Esri's ASCII grid: a header of names and numbers, then heights, the northernmost row first.
 
 use super::grid::HeightGrid;
 use super::map::TerrainMap;
@@ -44,18 +44,18 @@ impl Format for AsciiGrid {
     }
 }
 
-/// What the `.prj` file beside a grid says of its map.
+/// The reference system in the `.prj` file beside a grid.
 fn beside(path: &Path) -> Result<Option<String>, ModelFault> {
     let text = sidecar(path, "prj")?.and_then(|text| String::from_utf8(text).ok());
     Ok(text.filter(|text| !text.trim().is_empty()))
 }
 
-/// The head: what a grid must say, and what it may.
+/// The header of a grid, with required and optional values.
 #[derive(Default)]
 struct GridHead {
     columns: Option<u64>,
     rows: Option<u64>,
-    /// West and south, and whether these are of a cell's corner.
+    /// The west and south border, and whether they are those of a cell's corner.
     corner: [Option<(f64, bool)>; 2],
     cell: [Option<f64>; 2],
     no_data: Option<f64>,
@@ -80,19 +80,17 @@ impl GridHead {
     }
 }
 
-/// The heights as they are written, and the number that stands for none.
+/// The heights as written, and the value that means no height.
 fn grid(text: &str) -> Result<(HeightGrid, Option<f32>), ModelFault> {
     let mut words = text.split_ascii_whitespace().peekable();
     let mut head = GridHead::default();
     while let Some(key) = words.next_if(|word| !word.starts_with(|first: char| "+-.0123456789".contains(first))) {
         let value = words.next().and_then(number);
         if !value.is_some_and(|value| head.set(key, value)) {
-            return Err(
-                message![format!("has \"{key}\" in its head, which no ASCII grid has"); "export it again"].into()
-            );
+            return Err(message![format!("has the unknown name \"{key}\" in its header"); "export it again"].into());
         }
     }
-    let missing = |key: &str| message![format!("does not say `{key}` in its head"); "export it again"];
+    let missing = |key: &str| message![format!("has no `{key}` in its header"); "export it again"];
     let columns = head.columns.ok_or_else(|| missing("ncols"))?;
     let rows = head.rows.ok_or_else(|| missing("nrows"))?;
     let [Some((west, of_x)), Some((south, of_y))] = head.corner else { return Err(missing("xllcorner").into()) };
@@ -101,14 +99,14 @@ fn grid(text: &str) -> Result<(HeightGrid, Option<f32>), ModelFault> {
         return Err(message![format!("has cells of {dx} × {dy}"); "export it again"].into());
     }
     let count = HeightGrid::counted(columns, rows)?;
-    // two bytes a height at least
+    // each height takes at least two bytes
     if count > text.len() {
         return Err(cut_off(text.len(), count));
     }
     let mut heights = Vec::with_capacity(count);
     for word in words.by_ref().take(count) {
         let Some(height) = number(word) else {
-            return Err(message![format!("has \"{word}\" for a height"); "export it again"].into());
+            return Err(message![format!("has \"{word}\" instead of a height"); "export it again"].into());
         };
         heights.push(height as f32);
     }
@@ -125,7 +123,7 @@ fn grid(text: &str) -> Result<(HeightGrid, Option<f32>), ModelFault> {
     Ok((grid, head.no_data.map(|number| number as f32)))
 }
 
-/// A number, with a point or a comma.
+/// A number with a decimal point or comma.
 fn number(word: &str) -> Option<f64> {
     word.parse().ok().or_else(|| word.replace(',', ".").parse().ok()).filter(|number: &f64| number.is_finite())
 }

@@ -1,11 +1,11 @@
-//! The keys of a GeoTIFF or of LAS: the map to which the coordinates belong, and the unit of the heights.
+//! Reads the keys of a GeoTIFF or LAS file: the map of the coordinates, and the unit of the heights.
 //!
-//! OGC GeoTIFF 1.1 (19-008r4): the directory is 16-bit numbers, four for each key: its number, the tag that has its
-//! value, the count, and the value or its index in that tag.
+//! OGC GeoTIFF 1.1 (19-008r4): the directory has four 16-bit numbers for each key: the key, the tag with its value, the
+//! count, and the value or its index in that tag.
 
 use crate::crs::vertical_unit_m;
 
-/// The values of the keys that say where and how high.
+/// The keys for position and height.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct MapKeys {
     /// The reference system, as `EPSG:25832`, or the name of one that has no number.
@@ -14,11 +14,11 @@ pub(super) struct MapKeys {
     pub height_unit_m: Option<f64>,
     /// The length of a unit of the map in metres, if the keys say it.
     pub map_unit_m: Option<f64>,
-    /// Whether a sample is the height of a point, and not of a cell around it.
+    /// Whether a sample is the height at a point, and not of a cell around it.
     pub is_point: bool,
 }
 
-/// Keys by their numbers.
+/// The numbers of keys.
 const MODEL_TYPE: u16 = 1024;
 const RASTER_TYPE: u16 = 1025;
 const CITATION: u16 = 1026;
@@ -28,13 +28,13 @@ const PROJECTED_CITATION: u16 = 3073;
 const PROJECTED_UNIT: u16 = 3076;
 const VERTICAL: u16 = 4096;
 const VERTICAL_UNIT: u16 = 4099;
-/// Where texts lie.
+/// The tag with the texts.
 const TEXTS: u16 = 34737;
-/// The value of what the file defines itself.
+/// The value for something that the file itself defines.
 const USER_DEFINED: u16 = 32767;
 
 impl MapKeys {
-    /// Reads a directory and the texts beside it.
+    /// Reads a directory with its texts.
     pub(super) fn of(directory: &[u16], texts: &str) -> MapKeys {
         let count = directory.get(3).copied().unwrap_or(0).into();
         let keys: Vec<[u16; 4]> =
@@ -62,7 +62,7 @@ impl MapKeys {
     }
 }
 
-/// Metres a unit, of EPSG's numbers of units.
+/// The metres of one of EPSG's units.
 fn unit_m(code: u16) -> Option<f64> {
     match code {
         9001 => Some(1.0),

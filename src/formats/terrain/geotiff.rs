@@ -1,4 +1,4 @@
-//! GeoTIFF elevation: striped, tiled or planar, of any number type.
+//! Reads GeoTIFF elevation: striped, tiled or planar, of any number type.
 
 use super::geokeys::MapKeys;
 use super::grid::HeightGrid;
@@ -17,7 +17,7 @@ use tiff::TiffError;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 
-/// Tags of GeoTIFF.
+/// The tags of GeoTIFF.
 const TRANSFORMATION: Tag = Tag::Unknown(34264);
 const KEY_DIRECTORY: Tag = Tag::Unknown(34735);
 const KEY_TEXTS: Tag = Tag::Unknown(34737);
@@ -92,7 +92,7 @@ fn keys(tiff: &mut Tiff) -> MapKeys {
     MapKeys::of(&directory, &texts)
 }
 
-/// Where the middle of the first cell lies, and the steps to its neighbours.
+/// The middle of the first cell, and the steps to its neighbours.
 fn placed(tiff: &mut Tiff, keys: &MapKeys, path: &Path) -> Result<(DVec2, [DVec2; 2]), ModelFault> {
     let numbers = |tiff: &mut Tiff, tag| tiff.get_tag_f64_vec(tag).unwrap_or_default();
     let middle = if keys.is_point { 0.0 } else { 0.5 };
@@ -116,14 +116,14 @@ fn placed(tiff: &mut Tiff, keys: &MapKeys, path: &Path) -> Result<(DVec2, [DVec2
     };
     found.filter(is_usable).ok_or_else(|| {
         message![
-            "does not say where it lies, so it is a picture and no terrain";
+            "does not say where it lies, so it is a picture and not terrain";
             "export it as GeoTIFF with its coordinates, or put its world file (.tfw) beside it"
         ]
         .into()
     })
 }
 
-/// Where a `.tfw` beside it says that it lies: the steps, then the middle of the first cell.
+/// The position from a `.tfw` beside it, which has the steps, then the middle of the first cell.
 fn world_file(path: &Path) -> Result<Option<(DVec2, [DVec2; 2])>, ModelFault> {
     let text = sidecar(path, "tfw")?.unwrap_or_default();
     let text = String::from_utf8_lossy(&text);
@@ -132,7 +132,7 @@ fn world_file(path: &Path) -> Result<Option<(DVec2, [DVec2; 2])>, ModelFault> {
     Ok(Some((DVec2::new(x, y), [DVec2::new(a, c), DVec2::new(b, d)])))
 }
 
-/// The numbers of the first band, row after row.
+/// The numbers of the first band, row by row.
 fn heights(tiff: &mut Tiff, [columns, rows]: [u32; 2], count: usize) -> Result<Vec<f32>, ModelFault> {
     let (chunk_width, chunk_height) = tiff.chunk_dimensions();
     if chunk_width == 0 || chunk_height == 0 {
@@ -145,7 +145,7 @@ fn heights(tiff: &mut Tiff, [columns, rows]: [u32; 2], count: usize) -> Result<V
         let numbers = numbers(tiff.read_chunk(chunk).map_err(damaged)?);
         let (width, height) = tiff.chunk_data_dimensions(chunk);
         let cells = u64::from(width) * u64::from(height);
-        // where bands lie between each other, the first of each cell's numbers is the height
+        // if bands are interleaved, the first of each cell's numbers is the height
         let bands = (numbers.len() as u64 / cells.max(1)).max(1) as usize;
         let [west, north] = [chunk % across * chunk_width, chunk / across * chunk_height];
         for (row, line) in numbers.chunks_exact(width as usize * bands).take(height as usize).enumerate() {

@@ -9,11 +9,11 @@ const MAX_SAMPLES: u64 = 100_000_000;
 /// Cells along the side of a square: in such squares a raster is thinned, which takes memory for all that they cover.
 pub(super) const SQUARE: usize = 256;
 
-/// Heights on a raster, row after row.
+/// Heights on a raster, row by row.
 pub(super) struct HeightGrid {
     pub columns: usize,
     pub rows: usize,
-    /// The heights in metres; NaN where there is none.
+    /// The heights in metres; NaN for missing ones.
     pub heights: Vec<f32>,
     /// The position of the first sample, in the file's coordinates.
     pub first: DVec2,
@@ -22,7 +22,7 @@ pub(super) struct HeightGrid {
 }
 
 impl HeightGrid {
-    /// How many samples a raster has, where that is not too many and not too few.
+    /// The number of samples of a raster, if it is within limits.
     pub(super) fn counted(columns: u64, rows: u64) -> Result<usize, ModelFault> {
         let count = columns.checked_mul(rows).filter(|count| *count <= MAX_SAMPLES);
         let count = count.and_then(|count| usize::try_from(count).ok()).ok_or_else(|| too_many(columns, rows))?;
@@ -34,7 +34,7 @@ impl HeightGrid {
         Ok(count)
     }
 
-    /// The height at a sample; NaN where there is none, and beyond the raster.
+    /// The height at a sample; NaN if it is missing or beyond the raster.
     pub(super) fn height(&self, column: usize, row: usize) -> f32 {
         if column >= self.columns {
             return f32::NAN;
@@ -42,17 +42,17 @@ impl HeightGrid {
         self.heights.get(row * self.columns + column).copied().unwrap_or(f32::NAN)
     }
 
-    /// Where a sample stands.
+    /// The position of a sample.
     pub(super) fn point(&self, column: usize, row: usize) -> DVec3 {
         let at = self.first + self.steps[0] * column as f64 + self.steps[1] * row as f64;
         at.extend(self.height(column, row).into())
     }
 
-    /// How far apart the samples are, for a message.
+    /// The spacing of the samples, for a message.
     pub(super) fn spacing(&self, is_of_map: bool) -> String {
         let [across, down] = self.steps.map(|step| step.length());
         let unit = match is_of_map {
-            // degrees, most likely
+            // probably degrees
             true if across.max(down) < 0.01 => "units of its map",
             _ => "m",
         };
@@ -60,23 +60,23 @@ impl HeightGrid {
         if across == down { format!("{across} {unit} apart") } else { format!("{across} × {down} {unit} apart") }
     }
 
-    /// Whether the rows run so that the triangles of [`super::thin`] must be turned over to look up.
+    /// Whether the triangles of [`super::thin`] must be flipped to face up, given the directions of the rows.
     pub(super) fn is_mirrored(&self) -> bool {
         self.steps[0].perp_dot(self.steps[1]) < 0.0
     }
 }
 
-/// Three digits are enough for people.
+/// Rounds to three digits, for messages.
 fn rounded(number: f64) -> f64 {
     let digits = (2.0 - number.abs().log10().floor()).clamp(0.0, 12.0) as i32;
     let power = 10_f64.powi(digits);
     (number * power).round() / power
 }
 
-/// That a raster is larger than anyone can study.
+/// The error for a raster that is too large.
 fn too_many(columns: u64, rows: u64) -> ModelFault {
     message![
-        format!("has {columns} × {rows} heights, and a terrain may have {MAX_SAMPLES}");
+        format!("has {columns} × {rows} heights, but a terrain may have at most {MAX_SAMPLES}");
         "cut it to the surroundings of the place in a GIS, or export it with larger cells"
     ]
     .into()

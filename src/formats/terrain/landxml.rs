@@ -1,4 +1,4 @@
-//! LandXML: the triangulated surfaces of surveyors.
+//! Reads LandXML: surveyors' triangulated surfaces.
 
 use super::map::TerrainMap;
 use super::{NamedSheet, of_sheets};
@@ -25,7 +25,7 @@ impl Format for LandXml {
     }
 
     fn begins(&self, head: &[u8]) -> bool {
-        // the root, in whatever encoding that has ASCII in it
+        // the root element, in any encoding that contains ASCII
         head.windows(8).any(|word| word == b"<LandXML")
     }
 
@@ -45,7 +45,7 @@ impl Format for LandXml {
                 Event::Text(text) => file.text.push_str(&text),
                 Event::End(end) => file.close(end.local_name().as_ref())?,
                 Event::Eof => break,
-                // entities are not expanded: no number has one
+                // entities are not expanded: numbers have none
                 _ => (),
             }
         }
@@ -53,20 +53,20 @@ impl Format for LandXml {
     }
 }
 
-/// What of a file is read so far.
+/// What was read of a file so far.
 #[derive(Default)]
 struct LandXmlFile {
-    /// Metres a unit, where the file says it.
+    /// Metres per unit, if the file gives it.
     unit_m: Option<f64>,
     crs: Option<String>,
-    /// The surface that is open.
+    /// The current surface.
     surface: Option<TinSurface>,
     surfaces: Vec<TinSurface>,
     /// Surfaces without triangles.
     without: u64,
-    /// Faces that say that they are not seen.
+    /// The number of faces marked as invisible.
     hidden: u64,
-    /// The number of the point that is open, and whether the face that is open is hidden.
+    /// The id of the current point, and whether the current face is hidden.
     point: Option<String>,
     is_hidden: bool,
     text: String,
@@ -129,7 +129,7 @@ impl LandXmlFile {
 
     fn model(self, path: &Path) -> Result<Model, ModelFault> {
         let mut notes: Vec<Message> = Vec::new();
-        // without a map the file's unit is that of all three coordinates
+        // without a map, all three coordinates are in the file's unit
         let map = TerrainMap::of(self.crs, self.unit_m, self.unit_m, &mut notes);
         let sheets = self.surfaces.into_iter().map(|surface| -> NamedSheet {
             let name = if surface.name.is_empty() { stem(path) } else { surface.name };
@@ -141,14 +141,14 @@ impl LandXmlFile {
                 model.left_out.push(LeftOut { what: what.into(), count, why: why.into() });
             }
         };
-        left_out("hidden faces", self.hidden, "the file says: not part of the surface");
-        left_out("surfaces without triangles", self.without, "no TIN; let the program triangulate");
+        left_out("hidden faces", self.hidden, "the file marks them as not part of the surface");
+        left_out("surfaces without triangles", self.without, "they are not TINs: export them triangulated");
         Ok(model)
     }
 }
 
 impl TinSurface {
-    /// A point: northing, easting, height.
+    /// Reads a point: northing, easting, height.
     fn point(&mut self, id: String, text: &str) -> Result<(), ModelFault> {
         let numbers: Vec<f64> = text.split_ascii_whitespace().map_while(|word| word.parse().ok()).collect();
         let [northing, easting, height, ..] = numbers[..] else {
@@ -161,12 +161,12 @@ impl TinSurface {
         Ok(())
     }
 
-    /// A face: the numbers of its three points, however they wind.
+    /// Reads a face: the ids of its three points, in either winding.
     fn face(&mut self, text: &str) -> Result<(), ModelFault> {
         let mut corners = text.split_ascii_whitespace().map(|id| self.numbers.get(id).copied());
         let (Some(Some(a)), Some(Some(b)), Some(Some(c))) = (corners.next(), corners.next(), corners.next()) else {
             return Err(message![
-                format!("has a face of the points \"{}\", and not all of them are there", text.trim());
+                format!("has a face with the points \"{}\", some of which are missing", text.trim());
                 "export it again"
             ]
             .into());
@@ -183,7 +183,7 @@ fn attribute(start: &BytesStart, name: &str) -> Option<String> {
     Some(found.value.into_owned())
 }
 
-/// Metres a unit, by LandXML's names of them.
+/// Metres per unit, by LandXML's names.
 fn unit_m(name: &str) -> Option<f64> {
     match name {
         "millimeter" => Some(0.001),

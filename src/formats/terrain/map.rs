@@ -1,25 +1,27 @@
-//! The map of a terrain, and the units of its heights and of its plan.
+//! The map of a terrain, and the units of its heights and its plan.
 
 use crate::crs::{Crs, CrsKind};
 use crate::message::{Message, message};
 
-/// A unit of 1 m, and two feet, are told apart by this share.
+/// The ratio by which two units must differ to be distinct; it separates the metre and the two feet.
 const ONE_UNIT: f64 = 1e-3;
 const FOOT_M: f64 = 0.3048;
 
-/// What is known of a terrain's map.
+/// What is known about a terrain's map.
 pub(super) struct TerrainMap {
-    /// The reference system, as the file says it.
+    /// The reference system as the file gives it.
     pub crs: Option<String>,
-    /// Metres a unit of the file's heights.
+    /// The length of the file's unit of height, metres.
     pub height_unit_m: f64,
-    /// Metres a unit of the model: on a map that of heights, otherwise that of all three coordinates, if it is known.
+    /// The length of the model's unit, metres: with a map that of heights, otherwise that of all three coordinates, if
+    /// known.
     pub unit_m: Option<f64>,
 }
 
 impl TerrainMap {
-    /// Heights are in the unit that the file says, otherwise in the reference system's for heights, otherwise in that of
-    /// eastings and northings, with a note. `plan_unit_m` is what the file says of these beside its reference system.
+    /// Heights are in the unit that the file gives, otherwise in the reference system's unit for heights, otherwise in
+    /// that of eastings and northings, with a note. `plan_unit_m` is the file's unit for the latter besides its
+    /// reference system.
     pub(super) fn of(
         crs: Option<String>,
         said_m: Option<f64>,
@@ -37,19 +39,19 @@ impl TerrainMap {
         TerrainMap { crs, height_unit_m, unit_m }
     }
 
-    /// The model's units a metre of height.
+    /// The model's units in a metre of height.
     pub(super) fn of_a_metre(&self) -> f64 {
         1.0 / self.unit_m.unwrap_or(1.0)
     }
 }
 
-/// That the unit of heights is a guess, and which.
+/// A note that the unit of heights is an assumption.
 fn unsaid(is_of_map: bool, plan_m: Option<f64>) -> Message {
     let is_near = |plan_m: f64, unit_m: f64| (plan_m / unit_m - 1.0).abs() < ONE_UNIT;
     let taken = match plan_m {
         Some(plan_m) if is_near(plan_m, FOOT_M) => "feet, as its coordinates are".to_owned(),
         Some(plan_m) if !is_near(plan_m, 1.0) => format!("units of {plan_m} m, as its coordinates are"),
-        None if !is_of_map => "metres, or as of the map's unit where `crs` says one".to_owned(),
+        None if !is_of_map => "metres, or as being in the unit of the map that `crs` names".to_owned(),
         _ => "metres".to_owned(),
     };
     message![format!("does not say the unit of its heights; they are taken as {taken}")]

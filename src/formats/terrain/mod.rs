@@ -1,7 +1,8 @@
-//! Terrain: heights on a raster, measured points, and triangulated surfaces → sheets of triangles that are the ground.
+//! Reads terrain: heights on a raster, measured points, and triangulated surfaces become sheets of triangles that are
+//! the ground.
 //!
-//! Rasters and points become a `HeightGrid`, which `thin` turns into triangles that lie no farther from the heights
-//! than a given error. LandXML already has triangles.
+//! Rasters and points become a `HeightGrid`, from which `thin` makes triangles within a given distance of the heights.
+//! LandXML already has triangles.
 
 mod ascii_grid;
 mod geokeys;
@@ -29,19 +30,19 @@ use glam::DVec3;
 use grid::HeightGrid;
 use map::TerrainMap;
 
-/// What a raster of heights gives: one part, thinned; `name` says what people call it.
+/// The model of a raster of heights: one thinned part called `name`.
 fn model_of(grid: &HeightGrid, error_m: f64, name: &str, map: TerrainMap) -> Result<Model, ModelFault> {
     let samples = grid.heights.len();
     let missing = grid.heights.iter().filter(|height| height.is_nan()).count();
     if missing == samples {
-        let what = format!("has no heights: none of its {samples} cells has one");
+        let what = format!("has no heights in any of its {samples} cells");
         return Err(
-            message![what; "export the part of the terrain that has heights, with the right value for no data"].into(),
+            message![what; "export the part of the terrain that has heights, with the correct no-data value"].into()
         );
     }
     let sheet = thin::sheet(grid, error_m as f32);
     if sheet.triangles.is_empty() {
-        let what = format!("has {} heights, and no three of them side by side", samples - missing);
+        let what = format!("has {} heights, but no three next to each other", samples - missing);
         return Err(
             message![what; "export a larger part of the terrain, with at least two rows and two columns"].into()
         );
@@ -54,7 +55,7 @@ fn model_of(grid: &HeightGrid, error_m: f64, name: &str, map: TerrainMap) -> Res
             grid.spacing(map.crs.is_some()),
             sheet.triangles.len(),
         );
-        "`terrain_error` under [[model]] says how close"
+        "`terrain_error` under [[model]] changes that distance"
     ]);
     if missing > 0 {
         let (cells, are) = (counted(missing as u64, "cell"), if missing == 1 { "is" } else { "are" });
@@ -63,11 +64,11 @@ fn model_of(grid: &HeightGrid, error_m: f64, name: &str, map: TerrainMap) -> Res
     Ok(of_metres(vec![(name.to_owned(), sheet.positions, sheet.triangles, PartKind::Terrain)], map, notes))
 }
 
-/// What one sheet is: its name, corners, triangles and kind.
+/// A sheet: its name, corners, triangles and kind.
 type NamedSheet = (String, Vec<DVec3>, Vec<[u32; 3]>, PartKind);
 
-/// A model of sheets whose heights are in metres, as thinning has them: they become the file's unit again, so that the
-/// model says that unit, and `scale` can replace it.
+/// A model of sheets with heights in metres, as thinning returns them. They are converted back to the file's unit, so
+/// that the model states that unit and `scale` can override it.
 fn of_metres(mut sheets: Vec<NamedSheet>, map: TerrainMap, notes: Vec<Message>) -> Model {
     let of_a_metre = map.of_a_metre();
     for (_, positions, ..) in &mut sheets {
@@ -76,7 +77,7 @@ fn of_metres(mut sheets: Vec<NamedSheet>, map: TerrainMap, notes: Vec<Message>) 
     of_sheets(sheets, map, notes)
 }
 
-/// A model of sheets in the file's own units, in the coordinates of a map where one is known.
+/// A model of sheets in the file's own units, in map coordinates if a map is known.
 fn of_sheets(sheets: Vec<NamedSheet>, map: TerrainMap, notes: Vec<Message>) -> Model {
     let kinds = sheets.iter().map(|(.., kind)| *kind).collect();
     let parts = sheets.into_iter().map(|(name, positions, triangles, _)| Part {

@@ -1,15 +1,15 @@
-//! Points → heights on a raster, and blocks that stand on it.
+//! Makes heights on a raster from points, and blocks that stand on it.
 
 use super::grid::HeightGrid;
 use crate::formats::ModelFault;
 use crate::message::{Message, message};
 use glam::{DVec2, DVec3};
 
-/// Points in a cell, on average.
+/// The mean number of points in a cell.
 const IN_A_CELL: f64 = 2.0;
-/// Where the ground is not classified, the lowest of so many points in a cell stands for it, on average.
+/// The mean number of points in a cell if the ground is not classified; the lowest of them is taken as ground.
 const IN_A_LOWEST: f64 = 30.0;
-/// The share of the points that lie no farther from their heights than the usual deviation.
+/// The share of points for the usual deviation from their cell's height.
 const USUAL: f64 = 0.9;
 
 /// A narrow strip takes more cells than points; so many a point, and so many in all, are ground.
@@ -19,27 +19,28 @@ const SPARSEST: usize = 10_000;
 /// Points on a raster.
 pub(super) struct PointCells {
     pub grid: HeightGrid,
-    /// How many cells have no point.
+    /// The number of cells without a point.
     filled: usize,
-    /// How far points of cells lie from their heights: that of nine in ten, and the most, metres.
+    /// The distance of points from their cell's height, metres: that of nine in ten, and the greatest.
     deviations: [f64; 2],
 }
 
-/// Blocks over the cells of a raster.
+/// Blocks on the cells of a raster.
 pub(super) struct CellBlocks {
     pub positions: Vec<DVec3>,
     pub triangles: Vec<[u32; 3]>,
 }
 
 impl PointCells {
-    /// The raster of points that are ground: each cell's mean; the lowest of each cell where the ground is not classified.
+    /// The raster of ground points: the mean of each cell, or the lowest point if the ground is not classified.
     pub(super) fn of(points: &[DVec3], is_classified: bool) -> Result<PointCells, ModelFault> {
         let low = points.iter().fold(DVec2::INFINITY, |low, point| low.min(point.truncate()));
         let high = points.iter().fold(DVec2::NEG_INFINITY, |high, point| high.max(point.truncate()));
         let size = high - low;
         if !(size.min_element() > 0.0 && size.is_finite()) {
             return Err(
-                message!["has its points in one line, so there is no ground between them"; "export it again"].into()
+                message!["has all its points on one line, so there is no ground between them"; "export it again"]
+                    .into(),
             );
         }
         let in_a_cell = if is_classified { IN_A_CELL } else { IN_A_LOWEST };
@@ -56,7 +57,7 @@ impl PointCells {
             return Err(message![what; "leave out the points that lie apart, and export it again"].into());
         }
         let (columns, rows) = (columns as usize, rows as usize);
-        // samples lie in the middles of cells, the first in the north-west
+        // samples are in the middle of cells, the first in the north-west
         let first = DVec2::new(low.x + cell / 2.0, low.y + cell * (rows as f64 - 0.5));
         let steps = [DVec2::new(cell, 0.0), DVec2::new(0.0, -cell)];
         let heights = vec![f32::NAN; count];
@@ -67,7 +68,7 @@ impl PointCells {
         Ok(cells)
     }
 
-    /// The number of the cell that a point lies in.
+    /// The index of a point's cell.
     fn cell(&self, point: DVec3) -> usize {
         let from_first = (point.truncate() - self.grid.first) / self.grid.steps[0].x;
         let column = (from_first.x.round().max(0.0) as usize).min(self.grid.columns - 1);
@@ -96,7 +97,7 @@ impl PointCells {
         }
     }
 
-    /// Gives cells without a point what the nearest coarser cells have, ever coarser ones (push-pull: Gortler et al., The
+    /// Fills cells without a point from the nearest coarser cells that have one (push-pull: Gortler et al., The
     /// Lumigraph, 1996).
     fn fill(&mut self) {
         self.filled = self.grid.heights.iter().filter(|height| height.is_nan()).count();
@@ -118,7 +119,7 @@ impl PointCells {
         }
     }
 
-    /// What the user should know of them.
+    /// The notes on the raster.
     pub(super) fn notes(&self, is_classified: bool) -> Vec<Message> {
         let cell = self.grid.steps[0].x;
         let cells = self.grid.heights.len();
@@ -134,7 +135,7 @@ impl PointCells {
             );
         } else {
             notes.push(message![
-                format!("has no points classified as ground, so the lowest point of each cell of {cell} units of its map stands for it");
+                format!("has no points classified as ground, so the lowest point in each cell of {cell} units of its map is taken as ground");
                 "classify its ground points, and export it again"
             ]);
         }
@@ -142,7 +143,7 @@ impl PointCells {
             let share = 100.0 * self.filled as f64 / cells as f64;
             notes.push(
                 format!(
-                    "has no ground points in {share:.0}% of these cells, as below buildings, which have the heights of \
+                    "has no ground points in {share:.0}% of these cells, such as below buildings; these have the heights of \
                      their neighbours"
                 )
                 .into(),
@@ -151,7 +152,7 @@ impl PointCells {
         notes
     }
 
-    /// Points of a class as blocks: over each cell with such a point up to the highest of them, from the ground.
+    /// Makes blocks of a class's points: over each cell with such a point, from the ground up to the highest one.
     pub(super) fn blocks(&self, points: &[DVec3]) -> CellBlocks {
         let mut tops = vec![f64::NAN; self.grid.heights.len()];
         for &point in points {
@@ -193,7 +194,7 @@ impl CellBlocks {
     }
 }
 
-/// A raster of half the size: the means of four.
+/// A raster of half the size, with the means of four cells.
 fn halved(columns: usize, rows: usize, heights: &[f32]) -> (usize, usize, Vec<f32>) {
     let (half_columns, half_rows) = (columns.div_ceil(2), rows.div_ceil(2));
     let mean = |at: usize| {
@@ -208,7 +209,7 @@ fn halved(columns: usize, rows: usize, heights: &[f32]) -> (usize, usize, Vec<f3
     (half_columns, half_rows, (0..half_columns * half_rows).map(mean).collect())
 }
 
-/// The next larger of 1, 2 and 5 times a power of ten.
+/// Rounds up to 1, 2 or 5 times a power of ten.
 fn rounded_up(number: f64) -> f64 {
     let power = 10_f64.powf(number.log10().floor());
     [1.0, 2.0, 5.0, 10.0].into_iter().map(|step| step * power).find(|step| *step >= number).unwrap_or(number)

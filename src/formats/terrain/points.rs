@@ -1,4 +1,4 @@
-//! LAS and LAZ: measured points by their classes. Ground becomes terrain; buildings and vegetation are read on request.
+//! Reads LAS and LAZ: measured points by class. Ground becomes terrain; buildings and vegetation are read on request.
 
 use super::geokeys::MapKeys;
 use super::las_sizes::{self, unusable};
@@ -22,12 +22,12 @@ pub struct LasPoints;
 /// Bytes of points that are read in one go.
 const AT_ONCE: u64 = 1 << 24;
 
-/// Of points on the ground, and on key points of it (ASPRS LAS 1.4-R15, table 17).
+/// The classes of ground, and of its key points (ASPRS LAS 1.4-R15, table 17).
 const GROUND: [u8; 2] = [2, 8];
-/// Points that are errors, low or high.
+/// The classes of errors, low or high.
 const NOISE: [u8; 2] = [7, 18];
 
-/// Classes that can be asked, with their numbers.
+/// The classes that can be requested, with their numbers.
 const CLASSES: [(&str, &[u8]); POINT_CLASSES.len()] =
     [(POINT_CLASSES[0], &[6]), (POINT_CLASSES[1], &[3, 4, 5]), (POINT_CLASSES[2], &[17]), (POINT_CLASSES[3], &[9])];
 
@@ -115,7 +115,7 @@ fn model(path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
     Ok(model)
 }
 
-/// Points by their classes, in the file's coordinates, heights in metres.
+/// Points by class, in the file's coordinates, heights in metres.
 struct ClassedPoints {
     by_class: BTreeMap<u8, Vec<DVec3>>,
 }
@@ -153,7 +153,7 @@ impl ClassedPoints {
         classes.iter().filter_map(|class| self.by_class.get(class)).flatten().copied().collect()
     }
 
-    /// The points on the ground, and whether they are classified as such; else all points.
+    /// The ground points, and whether they are classified as such; otherwise all points.
     fn ground(&self) -> Result<(Vec<DVec3>, bool), ModelFault> {
         let ground = self.of_classes(&GROUND);
         if !ground.is_empty() {
@@ -162,21 +162,21 @@ impl ClassedPoints {
         let all: Vec<DVec3> = self.by_class.values().flatten().copied().collect();
         if all.is_empty() {
             return Err(message![
-                "has no points, or none but noise"; "export it with the points of the ground, of class 2"
+                "has no points except noise"; "export it with the points of the ground, of class 2"
             ]
             .into());
         }
         Ok((all, false))
     }
 
-    /// How many points are neither ground nor of a class that can be asked.
+    /// The number of points that are neither ground nor in a class that can be requested.
     fn others(&self) -> u64 {
         let is_asked = |class: &u8| GROUND.contains(class) || CLASSES.iter().any(|(_, of)| of.contains(class));
         self.by_class.iter().filter(|(class, _)| !is_asked(class)).map(|(_, points)| points.len() as u64).sum()
     }
 }
 
-/// Of which map the points are: as WKT says it where there is one, else GeoTIFF's keys.
+/// The map of the points: from WKT if there is any, otherwise from GeoTIFF's keys.
 fn keys(header: &Header) -> MapKeys {
     let record = |number: u16| {
         header.all_vlrs().find(|record| record.record_id == number && record.user_id == "LASF_Projection")
@@ -192,7 +192,7 @@ fn keys(header: &Header) -> MapKeys {
     }
 }
 
-/// Metres a unit of the heights, as WKT says it of its vertical part.
+/// The unit of the heights in metres, from the vertical part of a WKT.
 fn vertical_unit_m(wkt: &str) -> Option<f64> {
     let vertical = ["VERT_CS[", "VERTCRS["].iter().find_map(|mark| wkt.find(mark).map(|at| &wkt[at..]))?;
     // UNIT["metre",1 or LENGTHUNIT["metre",1

@@ -1,11 +1,11 @@
-//! A raster of heights → as few triangles as possible that lie within a given error of all its samples.
+//! Thins a raster of heights to as few triangles as possible within a given distance of all its samples.
 //!
 //! The method is right-triangulated irregular networks (Evans, Kirkpatrick and Townsend, 2001): squares of the raster
-//! are halved along their diagonal, and each right triangle again from its right angle to the middle of its longest
-//! side, until it lies close enough to the samples in it. Two triangles that share a longest side are halved together,
-//! and a triangle is halved if one of its halves is, so no crack opens and no corner lies within a side. The common
-//! form of the method looks only at the middle of the longest side; here each triangle is tested against all samples in
-//! it, so the given error is a bound.
+//! are split along their diagonal, and each right triangle is bisected from its right angle to the middle of its
+//! hypotenuse, until it is close enough to the samples in it. Two triangles that share a hypotenuse are split together,
+//! and a triangle is split if one of its halves is, so there are no cracks or T-junctions. The usual form of the method
+//! tests only the middle of the hypotenuse; here each triangle is tested against all samples in it, so the given error
+//! is a bound.
 
 use super::grid::{HeightGrid, SQUARE};
 use glam::{DVec2, DVec3};
@@ -16,10 +16,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 const HALVINGS: usize = SQUARE.ilog2() as usize;
 /// How often a square's triangles can be halved.
 const DEPTH: usize = 2 * HALVINGS;
-/// A sample that is no corner.
+/// A sample that is not a corner.
 const ABSENT: u32 = u32::MAX;
 
-/// What comes of a raster.
+/// The result of thinning.
 pub(super) struct ThinnedSheet {
     /// The vertices, in the file's coordinates.
     pub positions: Vec<DVec3>,
@@ -30,7 +30,7 @@ pub(super) struct ThinnedSheet {
 /// A sample's column and row.
 type RasterSample = [usize; 2];
 
-/// A right triangle: the ends of its longest side, and its right angle.
+/// A right triangle: the ends of its hypotenuse, and its right-angled corner.
 #[derive(Clone, Copy)]
 struct RightTriangle {
     ends: [RasterSample; 2],
@@ -56,24 +56,24 @@ impl RightTriangle {
     }
 }
 
-/// The squares that cover a raster, and per sample whether it halves the longest side of triangles.
+/// The squares that cover a raster, and for each sample whether it splits the hypotenuse of triangles.
 struct Squares<'a> {
     grid: &'a HeightGrid,
-    /// Squares in a row, and in a column.
+    /// The number of squares in a row, and in a column.
     count: [usize; 2],
-    /// Samples in a row of all squares.
+    /// The number of samples in a row of all squares.
     width: usize,
     halves: Vec<AtomicBool>,
     error_m: f32,
 }
 
-/// The triangles whose corners lie within `error_m` of a raster's samples, and all samples within that of them.
+/// Thins a raster: all samples are within `error_m` of the triangles.
 pub(super) fn sheet(grid: &HeightGrid, error_m: f32) -> ThinnedSheet {
     let count = [grid.columns, grid.rows].map(|samples| samples.saturating_sub(1).div_ceil(SQUARE));
     let [width, height] = count.map(|squares| squares * SQUARE + 1);
     let halves = (0..width * height).into_par_iter().map(|_| AtomicBool::new(false)).collect();
     let squares = Squares { grid, count, width, halves, error_m };
-    // the smallest first: a triangle is halved where its halves are
+    // the smallest first: a triangle is split if one of its halves is
     for depth in (0..DEPTH).rev() {
         squares.each_root().into_par_iter().for_each(|root| squares.judge(root, depth));
     }
@@ -99,7 +99,7 @@ impl Squares<'_> {
         self.halves.get(row * self.width + column).is_some_and(|is_halved| is_halved.load(Ordering::Relaxed))
     }
 
-    /// Judges the triangles below a root that have been halved `depth` times.
+    /// Tests the triangles below a root at a depth of `depth` bisections.
     fn judge(&self, triangle: RightTriangle, depth: usize) {
         if self.is_beyond(&triangle) {
             return;
@@ -107,7 +107,7 @@ impl Squares<'_> {
         if depth > 0 {
             return triangle.halves().into_iter().for_each(|half| self.judge(half, depth - 1));
         }
-        // half of a square of two cells has cells for halves, which are not halved
+        // the halves of a square of two cells are cells, which are not split
         let [one, other] = triangle.ends;
         let has_halved = one[0].abs_diff(other[0]) + one[1].abs_diff(other[1]) > 2
             && triangle.halves().iter().any(|half| self.is_halved(half.middle()));
@@ -125,11 +125,11 @@ impl Squares<'_> {
         first(0) >= self.grid.columns || first(1) >= self.grid.rows
     }
 
-    /// Whether a sample in a triangle lies too far from its plane, or some samples have a height and others none.
+    /// Whether a sample in a triangle is too far from its plane, or only some of its samples have a height.
     fn deviates(&self, triangle: &RightTriangle) -> bool {
         let [a, b, c] = triangle.corners();
         let [height_a, height_b, height_c] = [a, b, c].map(|[column, row]| self.grid.height(column, row));
-        // the plane's slopes, from the two sides of the right angle, of which each may be any of the two axes
+        // the plane's slopes, from the two legs, each of which may be along either axis
         let at = |corner: RasterSample| {
             DVec2::new(corner[0] as f64, corner[1] as f64) - DVec2::new(c[0] as f64, c[1] as f64)
         };
@@ -145,7 +145,7 @@ impl Squares<'_> {
             for column in from..=to {
                 let height = self.grid.height(column, row);
                 let is_far = match has_height && !height.is_nan() {
-                    // a plane that is none, as a corner has no height, is far from all
+                    // NaN: a corner has no height, so the triangle is split
                     true => {
                         let off = (start + slope.x * column as f32 - height).abs();
                         off.is_nan() || off > self.error_m
@@ -184,7 +184,7 @@ impl Squares<'_> {
         sheet
     }
 
-    /// The triangles below one that are close enough, or cannot be halved; without those that have no height.
+    /// Collects the triangles below one that are close enough or cannot be split, without those that have no height.
     fn gather(&self, triangle: RightTriangle, halvings: usize, found: &mut Vec<[RasterSample; 3]>) {
         if halvings > 0 && self.is_halved(triangle.middle()) {
             return triangle.halves().into_iter().for_each(|half| self.gather(half, halvings - 1, found));
@@ -196,7 +196,7 @@ impl Squares<'_> {
     }
 }
 
-/// The first and the last column of a row that lie in a triangle whose sides are level, upright or at 45°.
+/// The first and the last column of a row in a triangle whose sides are horizontal, vertical or at 45°.
 fn columns_of(corners: &[RasterSample; 3], row: usize) -> (usize, usize) {
     let mut found = (usize::MAX, 0);
     for (one, other) in [(0, 1), (1, 2), (2, 0)] {

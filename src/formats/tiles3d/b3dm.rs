@@ -5,13 +5,13 @@ use crate::message::{Message, message};
 use glam::DVec3;
 use serde::Deserialize;
 
-/// What such a file begins with.
+/// The first bytes of the file.
 pub(super) const MAGIC: &[u8] = b"b3dm";
 
-/// Bytes before the tables: magic, version, length, and the lengths of two tables' JSON and binary.
+/// The bytes before the tables: magic, version, length, and the lengths of both tables' JSON and binary.
 const HEADER_BYTES: usize = 28;
 
-/// The glTF of a content, the point that its coordinates are around, and the names of its features.
+/// The glTF of a content, the origin of its coordinates, and the names of its features.
 pub(super) struct TileGltf<'a> {
     pub gltf: &'a [u8],
     pub center: DVec3,
@@ -25,7 +25,7 @@ struct FeatureTable {
     center: Option<TileCenter>,
 }
 
-/// Numbers, or where they are in the table's binary.
+/// Numbers, or their position in the table's binary.
 #[derive(Deserialize)]
 #[serde(untagged)]
 enum TileCenter {
@@ -36,7 +36,7 @@ enum TileCenter {
     },
 }
 
-/// Finds the glTF in a batched model.
+/// Finds the glTF in a batched 3D model.
 pub(super) fn opened(bytes: &[u8]) -> Result<TileGltf<'_>, Message> {
     let cut_off = || message!["is cut off or damaged"; "copy or export it again"];
     let number = |at: usize| {
@@ -48,7 +48,7 @@ pub(super) fn opened(bytes: &[u8]) -> Result<TileGltf<'_>, Message> {
         return Err(cut_off());
     };
     if *version != 1 {
-        return Err(message![format!("is a batched 3D model of version {version}, and Gnomon reads 1");
+        return Err(message![format!("is a batched 3D model of version {version}, but Gnomon reads 1");
             "export it as 3D Tiles 1.0 or 1.1"]);
     }
     let body = bytes.get(HEADER_BYTES..*length).ok_or_else(cut_off)?;
@@ -60,7 +60,7 @@ pub(super) fn opened(bytes: &[u8]) -> Result<TileGltf<'_>, Message> {
     Ok(TileGltf { gltf, center, names: batch_names(batch) })
 }
 
-/// `RTC_CENTER`, or zero where the table has none.
+/// `RTC_CENTER`; zero if the table has none.
 fn center(table: &[u8], binary: &[u8]) -> Option<DVec3> {
     if table.trim_ascii().is_empty() {
         return Some(DVec3::ZERO);
@@ -77,7 +77,7 @@ fn center(table: &[u8], binary: &[u8]) -> Option<DVec3> {
     }
 }
 
-/// `CESIUM_RTC` of a glTF, which is a point of the tile and not turned with the model.
+/// `CESIUM_RTC` of a glTF: a point in the tile's coordinates, which is not turned with the model.
 pub(super) fn cesium_center(json: &[u8]) -> DVec3 {
     #[derive(Default, Deserialize)]
     #[serde(default)]

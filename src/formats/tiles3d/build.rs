@@ -1,4 +1,4 @@
-//! The contents of tiles → parts of one model.
+//! Joins the contents of tiles into one model.
 
 use super::b3dm::{MAGIC, TileGltf, cesium_center, opened};
 use crate::formats::gltf::GltfContext;
@@ -9,13 +9,13 @@ use crate::message::{Message, few, message};
 use glam::{DMat4, DVec3};
 use std::path::Path;
 
-/// How far from the Earth's centre its surface is, metres, with what stands on it and some room.
+/// The range of distances of the Earth's surface and what stands on it from the Earth's centre, metres, with a margin.
 const EARTH_M: std::ops::Range<f64> = 6.3e6..6.42e6;
 
-/// The most notes of contents that are told; thousands of tiles say the same.
+/// The most notes on contents that are passed on, as thousands of tiles have the same.
 const MOST_NOTES: usize = 10;
 
-/// Why a content is left out whose own reason is told.
+/// Why a content is left out whose own error is reported.
 const UNREADABLE: &str = "the file cannot be read";
 
 /// Collects the parts of all contents.
@@ -42,7 +42,7 @@ impl TileBuilder {
         }
     }
 
-    /// A content that cannot be used.
+    /// Counts a content that cannot be used.
     pub(super) fn fail(&mut self, name: &str, fault: &ModelFault) {
         self.tally.add("contents", UNREADABLE);
         if self.failed.len() < MOST_NOTES {
@@ -50,7 +50,7 @@ impl TileBuilder {
         }
     }
 
-    /// Adds a content. `name` is empty where it stands alone.
+    /// Adds a content. `name` is empty for a file with a single content.
     pub(super) fn add(
         &mut self,
         path: &Path,
@@ -75,8 +75,8 @@ impl TileBuilder {
         self.join(model, name, world * DMat4::from_translation(center), turned)
     }
 
-    /// `world` brings what `turned` has turned upright to its place; apart from each other, so that quarter turns are
-    /// exact.
+    /// Adds the parts of a model. `turned` turns them z up, then `world` places them. The two are separate so that
+    /// quarter turns are exact.
     fn join(&mut self, model: Model, name: &str, world: DMat4, turned: DMat4) -> Result<(), ModelFault> {
         let is_turned = turned != DMat4::IDENTITY;
         let is_mirrored = world.determinant() < 0.0;
@@ -122,7 +122,7 @@ impl TileBuilder {
         Ok(())
     }
 
-    /// Returns an error if there are more triangles than a model may have.
+    /// Refuses more triangles than a model may have.
     pub(super) fn check_size(&self) -> Result<(), Message> {
         if self.triangles > MAX_TRIANGLES {
             let what = format!("has more than {MAX_TRIANGLES} triangles, which is the most that a model may have");
@@ -135,7 +135,7 @@ impl TileBuilder {
         self.finish_with(LeftOutTally::default())
     }
 
-    /// The model, with what the tileset leaves out.
+    /// Returns the model, with what the tileset leaves out.
     pub(super) fn finish_with(mut self, tileset: LeftOutTally) -> Result<Model, ModelFault> {
         let mut left_out = self.tally.into_left_out();
         left_out.extend(tileset.into_left_out());
@@ -150,7 +150,7 @@ impl TileBuilder {
             Coordinates::Map("EPSG:4978".into())
         } else {
             self.notes.push(message![
-                "has coordinates that are not around the Earth's centre, and is taken as a drawing of its own"
+                "has coordinates that are not relative to the Earth's centre, and is read as a drawing without a place"
             ]);
             Coordinates::Local
         };
@@ -168,7 +168,7 @@ impl TileBuilder {
     }
 }
 
-/// That nothing was read, and why.
+/// The error that nothing was read, and why.
 fn nothing(failed: Vec<String>, left_out: &[LeftOut]) -> Message {
     let is_told = |one: &&LeftOut| one.what == "contents" && one.why == UNREADABLE;
     let others: Vec<LeftOut> = left_out.iter().filter(|one| !is_told(one)).cloned().collect();
@@ -178,7 +178,7 @@ fn nothing(failed: Vec<String>, left_out: &[LeftOut]) -> Message {
     message![what; "copy the whole folder of the tileset, with its contents"]
 }
 
-/// Whether parts lie at the Earth's surface, seen from its centre.
+/// Whether parts lie at the Earth's surface, relative to its centre.
 fn is_on_earth(parts: &[Part]) -> bool {
     let corners = || parts.iter().flat_map(|part| &part.positions);
     let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);

@@ -1,5 +1,5 @@
-//! Implicit tiling: tiles that are not written out, but follow from a tree of squares or cubes. Which of its places have a
-//! tile, and which a content, lists of tiles say (`subtree`).
+//! Implicit tiling: tiles that are not written out, but follow from a quadtree or octree. Subtree files (`subtree`) say
+//! which nodes of it have a tile, and which a content.
 
 use super::subtree::Subtree;
 use crate::formats::gltf::percent_decode;
@@ -9,18 +9,18 @@ use serde::Deserialize;
 use std::cell::Cell;
 use std::path::{Path, PathBuf};
 
-/// The most levels of a tree: an axis of the finest one has a thousand million places.
+/// The most levels of a tree: an axis of the finest one has a billion nodes.
 const MOST_LEVELS: u32 = 30;
 
-/// The most levels of one list: so many bits of a place's number are counted in 64.
+/// The most levels of one subtree file: its bits are indexed in 64 bits.
 const MOST_SUBTREE_LEVELS: u32 = 20;
 
-/// The most bytes that all lists of a tree may have, and what opening one counts as: a tree that never ends, whose places all
-/// lead to one file, must not be followed for long.
+/// The most bytes of all subtree files of a tree, and the cost of opening one. A tree whose nodes all refer to one file
+/// would never end.
 const MOST_LIST_BYTES: u64 = 1 << 30;
 const LIST_COST_BYTES: u64 = 1 << 14;
 
-/// Where a content lies. In a tree it is a template, in which each place writes its numbers.
+/// The address of a content. In a tree it is a template for the numbers of a node.
 #[derive(Deserialize)]
 pub(super) struct ContentAddress {
     /// Called `url` before 1.0.
@@ -34,9 +34,9 @@ pub(super) struct ContentAddress {
 pub(super) struct ImplicitTiling {
     subdivision_scheme: Scheme,
     subtree_levels: u32,
-    /// Of all lists together.
+    /// The levels of all subtrees together.
     available_levels: Option<u32>,
-    /// The number of the last one, as the extension had it.
+    /// The last level, as in the extension before 1.1.
     maximum_level: Option<u32>,
     subtrees: ContentAddress,
 }
@@ -48,14 +48,14 @@ enum Scheme {
     Octree,
 }
 
-/// A place of the tree.
+/// A node of the tree.
 #[derive(Clone, Copy)]
 struct TreePlace {
     level: u32,
     at: [u64; 3],
 }
 
-/// A place within a list: its level there, and its number in that level.
+/// A node within a subtree: its level, and its index in that level.
 #[derive(Clone, Copy)]
 struct ListPlace {
     level: u32,
@@ -63,7 +63,7 @@ struct ListPlace {
 }
 
 impl Scheme {
-    /// In how many axes it divides; each child's number has a bit for each.
+    /// The number of axes that it divides. A child's index has a bit for each.
     fn axes(self) -> u32 {
         if self == Scheme::Quadtree { 2 } else { 3 }
     }
@@ -73,15 +73,15 @@ impl Scheme {
         (0..many).map(move |child| ListPlace { level: of.level + 1, morton: of.morton * many + child })
     }
 
-    /// The bit of a place among those of all levels of a list.
+    /// The index of a node's bit in a subtree's list of all levels.
     fn bit(self, of: ListPlace) -> Option<usize> {
-        // the levels above have 1 + 4 + 16 …, or 1 + 8 + 64 … places
+        // the levels above have 1 + 4 + 16 + …, or 1 + 8 + 64 + … nodes
         let many = (1_u64 << self.axes()) - 1;
         let above = ((1_u64 << (self.axes() * of.level)) - 1) / many;
         usize::try_from(above + of.morton).ok()
     }
 
-    /// The place in the tree of one in a list, whose first place is `root`: the bits of its number go to the axes in turn.
+    /// The node in the tree of a node in a subtree with the root `root`: its index's bits belong to the axes in turn.
     fn place(self, root: TreePlace, of: ListPlace) -> TreePlace {
         let axes = self.axes();
         let mut at = root.at.map(|whole| whole << of.level);
@@ -96,7 +96,7 @@ impl Scheme {
 }
 
 impl TreePlace {
-    /// The address of what belongs to this place.
+    /// Fills in a template for this node.
     fn address(self, template: &str) -> String {
         let [x, y, z] = self.at;
         let words = [("{level}", u64::from(self.level)), ("{x}", x), ("{y}", y), ("{z}", z)];
@@ -105,7 +105,7 @@ impl TreePlace {
 }
 
 impl ImplicitTiling {
-    /// How many levels the tree has; none where it has more than can be counted.
+    /// The number of levels of the tree; `None` if there are too many.
     fn levels(&self) -> Option<u32> {
         let last = self.maximum_level.and_then(|last| last.checked_add(1));
         let levels = self.available_levels.or(last).unwrap_or(MOST_LEVELS);
@@ -118,36 +118,36 @@ impl ImplicitTiling {
 #[derive(Default)]
 pub(super) struct ImplicitTiles {
     pub tiles: Vec<ImplicitTile>,
-    /// The lists that say which tiles there are.
+    /// The subtree files.
     pub lists: Vec<PathBuf>,
-    /// How many of the lists cannot be read.
+    /// The number of subtree files that cannot be read.
     pub unread_lists: usize,
 }
 
 /// A tile of the tree.
 pub(super) struct ImplicitTile {
-    /// Whether no finer one stands below it.
+    /// Whether it has no finer tiles below it.
     pub is_finest: bool,
     /// The addresses of its contents.
     pub contents: Vec<Option<String>>,
 }
 
-/// A tree that is read.
+/// The traversal of a tree.
 struct TreeWalk<'a> {
     tiling: &'a ImplicitTiling,
     contents: &'a [&'a ContentAddress],
-    /// The folder of the tileset that is opened, and that of the one with the tree.
+    /// The folder of the tileset that was opened, and that of the tileset with the tree.
     folders: [&'a Path; 2],
     levels: u32,
-    /// The places whose lists are still to be read.
+    /// The roots of subtrees that are not read yet.
     roots: Vec<TreePlace>,
     read_bytes: Cell<u64>,
     found: ImplicitTiles,
 }
 
 impl ImplicitTiling {
-    /// The tiles of this tree, until there are more than `most`; none where the tree has more levels than any on Earth. Files
-    /// are read in the folder of the tileset that is opened alone, which is the first of the two.
+    /// The tiles of this tree; stops at more than `most`. `None` if the tree has too many levels. Files are read only
+    /// within the folder of the tileset that was opened, the first of `folders`.
     pub(super) fn tiles(
         &self,
         contents: &[&ContentAddress],
@@ -160,7 +160,7 @@ impl ImplicitTiling {
         while let Some(root) = walk.roots.pop() {
             let subtree = walk.subtree(root);
             if walk.read_bytes.get() > MOST_LIST_BYTES {
-                return Err(message!["has more lists of tiles than can be read"; "export a smaller region"]);
+                return Err(message!["has more subtree files than can be read"; "export a smaller region"]);
             }
             match subtree {
                 Some(subtree) => walk.add_subtree(root, &subtree, most),
@@ -175,7 +175,7 @@ impl ImplicitTiling {
 }
 
 impl TreeWalk<'_> {
-    /// Reads the list of the tiles from a place on.
+    /// Reads the subtree file of a node.
     fn subtree(&mut self, root: TreePlace) -> Option<Subtree> {
         let [home, folder] = self.folders;
         let bytes_of = |path: &Path| {
@@ -192,7 +192,7 @@ impl TreeWalk<'_> {
         Subtree::read(&bytes, beside)
     }
 
-    /// Adds the tiles of a list; where it ends, those below are added to `roots`.
+    /// Adds the tiles of a subtree, and the roots of those below it to `roots`.
     fn add_subtree(&mut self, root: TreePlace, subtree: &Subtree, most: usize) {
         let scheme = self.tiling.subdivision_scheme;
         let has_tile = |of: &ListPlace| subtree.tiles.has(scheme.bit(*of));

@@ -1,8 +1,8 @@
-//! 3D Tiles: a tileset with its contents, or a single content. Only the finest tiles are taken.
+//! Reads 3D Tiles: a tileset with its contents, or a single content. Only the finest tiles are used.
 //!
-//! What a tile holds is glTF, with its y up; tiles have z up, and bring their contents to where they are on the Earth, whose
-//! centre is zero. The files of this folder, in the order of the flow: `tileset` (JSON → which contents stand where), `implicit`
-//! and `subtree` (those of tiles that are not written out), `b3dm` (a content's bytes → its glTF), `build` (all of it → parts).
+//! A tile's content is glTF, with y up. Tiles are z up, and place their contents in coordinates around the Earth's
+//! centre. The files of this folder, in the order of the flow: `tileset` (finds and places contents), `implicit` and
+//! `subtree` (tiles that are not written out), `b3dm` (finds the glTF in a content), `build` (makes parts).
 
 use super::whole::{whole_file, whole_named_file};
 use super::{Format, Model, ModelFault, ReadOptions, json_head};
@@ -57,7 +57,7 @@ impl Format for Tiles3d {
         builder.finish_with(listed.tally)
     }
 
-    /// Contents are often compressed by Draco; which are is known only when all have been opened.
+    /// Contents are often compressed by Draco, which is only known when they are opened.
     fn is_foreign(&self, _path: &Path, _options: &ReadOptions) -> bool {
         true
     }

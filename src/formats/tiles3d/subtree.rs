@@ -1,18 +1,18 @@
-//! A list of the tiles of an implicit tiling: JSON, and bits that say which places of a tree have a tile, a content and
-//! further lists.
+//! Reads subtree files of implicit tilings: JSON, and bits for the nodes of a tree that have a tile, a content or a
+//! further subtree.
 
 use serde::Deserialize;
 
-/// What such a file begins with; the JSON can also stand alone.
+/// The first bytes of the binary form; the JSON may also be a file of its own.
 const MAGIC: &[u8] = b"subt";
 
-/// Bytes before the JSON: magic, version, and the lengths of JSON and binary.
+/// The bytes before the JSON: magic, version, and the lengths of JSON and binary.
 const HEADER_BYTES: usize = 24;
 
-/// Which places have something.
+/// Which nodes have something.
 pub(super) enum Availability {
     All(bool),
-    /// The lowest bit of the first byte is that of the first place.
+    /// The first node's bit is the lowest bit of the first byte.
     Bits(Vec<u8>),
 }
 
@@ -26,12 +26,12 @@ impl Availability {
     }
 }
 
-/// What a list says.
+/// The contents of a subtree file.
 pub(super) struct Subtree {
     pub tiles: Availability,
-    /// Of each content of a tile.
+    /// The availability of each content of a tile.
     pub contents: Vec<Availability>,
-    /// Of the places below its last level: which of them begin another list.
+    /// Which of the nodes below its last level are roots of further subtrees.
     pub below: Availability,
 }
 
@@ -43,7 +43,7 @@ struct SubtreeDocument {
     #[serde(default)]
     buffer_views: Vec<SubtreeView>,
     tile_availability: AvailabilitySource,
-    /// One for each content, or in the extension before 1.1 the only one's.
+    /// One for each content; in the extension before 1.1 a single one.
     #[serde(default)]
     content_availability: ContentSources,
     child_subtree_availability: AvailabilitySource,
@@ -79,7 +79,7 @@ impl Default for ContentSources {
 #[derive(Clone, Copy, Deserialize)]
 struct AvailabilitySource {
     constant: Option<u8>,
-    /// A view.
+    /// The index of a buffer view.
     #[serde(alias = "bufferView")]
     bitstream: Option<usize>,
 }
@@ -99,7 +99,7 @@ struct SubtreeView {
 }
 
 impl Subtree {
-    /// Reads a list; `beside` gives the bytes of a file that it names. None where it is damaged.
+    /// Reads a subtree; `beside` returns the bytes of a file that it refers to. `None` if it is damaged.
     pub(super) fn read(bytes: &[u8], beside: impl Fn(&str) -> Option<Vec<u8>>) -> Option<Self> {
         let (json, binary) = if bytes.starts_with(MAGIC) { halves(bytes)? } else { (bytes, &[][..]) };
         let document: SubtreeDocument = serde_json::from_slice(json.trim_ascii()).ok()?;
@@ -131,7 +131,7 @@ impl SubtreeDocument {
     }
 }
 
-/// The JSON and the binary behind it.
+/// The JSON and the binary after it.
 fn halves(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
     let number = |at: usize| {
         let bytes = bytes.get(at..at + 8)?.try_into().ok()?;

@@ -1,4 +1,4 @@
-//! The JSON of a tileset, and of the tilesets that it names → which contents stand where.
+//! Reads the JSON of a tileset and its nested tilesets, and places their contents.
 
 use super::implicit::{ContentAddress, ImplicitTiling};
 use crate::formats::ModelFault;
@@ -10,10 +10,10 @@ use glam::DMat4;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 
-/// How deep tilesets may name each other.
+/// How deeply tilesets may be nested.
 const MOST_DEEP: usize = 12;
 
-/// The most contents that stand there, and tiles that are looked at.
+/// The most contents that are read, and the most tiles that are visited.
 const MOST_CONTENTS: usize = 100_000;
 const MOST_TILES: usize = 1_000_000;
 
@@ -27,14 +27,14 @@ struct Tileset {
 #[derive(Default, Deserialize)]
 #[serde(default, rename_all = "camelCase")]
 struct TilesetAsset {
-    /// Of tilesets before 1.0.
+    /// Only in tilesets before 1.0.
     gltf_up_axis: Option<String>,
 }
 
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 struct TilesetTile {
-    /// Column by column.
+    /// Column-major.
     transform: Option<[f64; 16]>,
     refine: Option<String>,
     content: Option<ContentAddress>,
@@ -47,7 +47,7 @@ struct TilesetTile {
     extensions: TileExtensions,
 }
 
-/// What 1.1 took up was an extension before.
+/// Extensions that became part of 1.1.
 #[derive(Default, Deserialize)]
 struct TileExtensions {
     #[serde(rename = "3DTILES_implicit_tiling")]
@@ -69,27 +69,27 @@ impl TilesetTile {
     }
 }
 
-/// A content of a tile that stands there.
+/// A placed content of a tile.
 pub(super) struct TileContent {
     pub path: PathBuf,
-    /// Its address, without the ending.
+    /// Its address without the ending.
     pub name: String,
     pub world: DMat4,
-    /// Whether its glTF has y up, as in all but the oldest tilesets.
+    /// Whether its glTF is y up, as in all but the oldest tilesets.
     pub is_y_up: bool,
 }
 
-/// All contents that stand there.
+/// All placed contents.
 #[derive(Default)]
 pub(super) struct TileList {
     pub contents: Vec<TileContent>,
-    /// Further tilesets, and the lists of tiles that are not written out.
+    /// Nested tilesets, and subtree files.
     pub tilesets: Vec<PathBuf>,
     pub tally: LeftOutTally,
     tiles: usize,
 }
 
-/// The contents of a tileset.
+/// Finds the contents of a tileset.
 pub(super) fn contents(path: &Path, bytes: &[u8]) -> Result<TileList, ModelFault> {
     let mut list = TileList::default();
     let tileset = parsed(bytes)?;
@@ -102,7 +102,7 @@ pub(super) fn contents(path: &Path, bytes: &[u8]) -> Result<TileList, ModelFault
 fn parsed(bytes: &[u8]) -> Result<Tileset, Message> {
     serde_json::from_slice(without_mark(bytes)).map_err(|error| match error.classify() {
         serde_json::error::Category::Eof => message![format!("is cut off ({error})"); "copy or export it again"],
-        _ => message![format!("is no tileset ({error})"); "export it again"],
+        _ => message![format!("is not a tileset ({error})"); "export it again"],
     })
 }
 
@@ -112,32 +112,32 @@ impl Tileset {
     }
 }
 
-/// Where a tileset is described.
+/// Where a tileset's file is.
 #[derive(Clone, Copy)]
 struct TilesetPlace<'a> {
-    /// The folder of the tileset that is opened, out of which no link leads.
+    /// The folder of the tileset that was opened. Links must not lead out of it.
     home: &'a Path,
     folder: &'a Path,
     is_y_up: bool,
-    /// How much deeper tilesets may name each other.
+    /// How many more levels of tilesets may be nested.
     deep: usize,
 }
 
-/// Where a tile stands.
+/// Where a tile is placed.
 #[derive(Clone, Copy)]
 struct TilePlace<'a> {
     world: DMat4,
-    /// Whether finer tiles stand beside it, and not instead.
+    /// Whether finer tiles are added to it, instead of replacing it.
     adds: bool,
     tileset: TilesetPlace<'a>,
 }
 
 impl TileList {
-    /// Adds a tile and those below it. JSON is nested no deeper than its reader allows.
+    /// Adds a tile and those below it. The JSON parser limits the depth of the recursion.
     fn add(&mut self, tile: &TilesetTile, around: DMat4, adds: bool, at: TilesetPlace<'_>) -> Result<(), Message> {
         self.count_tile()?;
         let world = tile.transform.map_or(around, |transform| around * DMat4::from_cols_array(&transform));
-        // what a tile does not say, it has from the one around it
+        // a tile inherits what it does not define
         let adds = tile.refine.as_deref().map_or(adds, |refine| refine.eq_ignore_ascii_case("add"));
         let place = TilePlace { world, adds, tileset: at };
         if let Some(tiling) = tile.implicit_tiling.as_ref().or(tile.extensions.implicit_tiling.as_ref()) {
@@ -153,7 +153,7 @@ impl TileList {
         tile.children.iter().try_for_each(|child| self.add(child, world, adds, at))
     }
 
-    /// Adds the tiles of a tree that have no finer ones, or all where those are added to.
+    /// Adds the tiles of a tree that have no finer ones; or all, if finer tiles are added to them.
     fn add_implicit(
         &mut self,
         tiling: &ImplicitTiling,
@@ -162,7 +162,7 @@ impl TileList {
     ) -> Result<(), Message> {
         let folders = [place.tileset.home, place.tileset.folder];
         let Some(found) = tiling.tiles(contents, folders, MOST_TILES - self.tiles)? else {
-            self.tally.add("implicit tilings", "the tree has more levels than any on Earth");
+            self.tally.add("implicit tilings", "the tree has too many levels");
             return Ok(());
         };
         self.tilesets.extend(found.lists);
@@ -191,15 +191,15 @@ impl TileList {
     }
 
     fn leave_out_coarser(&mut self) {
-        self.tally.add("tiles", "finer ones stand instead");
+        self.tally.add("tiles", "finer ones are used instead");
     }
 
-    /// Adds what lies at an address.
+    /// Adds the content at an address.
     fn add_content(&mut self, uri: Option<&str>, place: TilePlace<'_>) -> Result<(), Message> {
         let TilePlace { world, adds, tileset: at } = place;
         let uri = uri.and_then(|uri| percent_decode(uri.split(['?', '#']).next()?));
         let Some(path) = uri.as_deref().and_then(|uri| below(at.folder, uri)) else {
-            self.tally.add("contents", "the address does not lie in the tileset's folder");
+            self.tally.add("contents", "the address is outside of the tileset's folder");
             return Ok(());
         };
         if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json")) {
@@ -213,12 +213,12 @@ impl TileList {
         Ok(())
     }
 
-    /// A tileset stands where the tile that names it does. One that cannot be read is left out as a content would be.
+    /// Adds a nested tileset at its tile's place. One that cannot be read is left out, like a content.
     fn add_tileset(&mut self, path: &Path, world: DMat4, adds: bool, at: TilesetPlace<'_>) -> Result<(), Message> {
         let read = || parsed(&whole_named_file(at.home, path).ok()?).ok();
         let tileset = (at.deep > 0).then(read).flatten();
         let Some(tileset) = tileset else {
-            let why = if at.deep > 0 { "the file cannot be read" } else { "tilesets name each other too often" };
+            let why = if at.deep > 0 { "the file cannot be read" } else { "tilesets are nested too deeply" };
             self.tally.add("tilesets", why);
             return Ok(());
         };

@@ -1,4 +1,4 @@
-//! Latitude or longitude, one at a time.
+//! Latitude or longitude.
 
 use std::fmt;
 
@@ -12,7 +12,7 @@ pub enum Axis {
 }
 
 impl Axis {
-    /// The largest value, degrees; the smallest is its opposite.
+    /// The greatest value, degrees; the least is its negative.
     pub fn most(self) -> f64 {
         match self {
             Axis::Latitude => 90.0,

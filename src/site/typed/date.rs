@@ -7,8 +7,8 @@ use chrono::{Month, NaiveDate, NaiveTime, Timelike};
 
 /// A date as people write it: `2026-12-21`, `21.12.2026`, `21/12/2026`, `21 Dec 2026`.
 ///
-/// With points the day is the first, as wherever people write them. With slashes or dashes it is where the date can be only
-/// one; the year has four digits.
+/// With points the day comes first, as is usual. With slashes or dashes the order is accepted only if it is
+/// unambiguous. The year has four digits.
 ///
 /// # Errors
 /// [`TypedError::Date`], [`TypedError::TwoDates`].
@@ -45,8 +45,8 @@ pub fn date(text: &str) -> Result<NaiveDate, TypedError> {
     }
 }
 
-/// A time as people write it, as a site file says it: `16`, `16.30`, `16:30`, `16h30`, `4 pm`, and all that
-/// [`Reading`] reads.
+/// A time as people write it, in the spelling of site files: `16`, `16.30`, `16:30`, `16h30`, `4 pm`, and everything
+/// that [`Reading`] reads.
 ///
 /// # Errors
 /// [`TypedError::Clock`], [`TypedError::DayEnd`].
@@ -72,7 +72,7 @@ fn spoken(text: &str) -> Option<[u32; 3]> {
     let half = halves.iter().find_map(|(word, from)| Some((text.strip_suffix(word)?, *from)));
     let (rest, from) = half.map_or((text, None), |(rest, from)| (rest, Some(from)));
     let rest = rest.trim();
-    // sixteen hours: nothing but minutes may follow
+    // after "16h" only minutes may follow
     let rest = rest.strip_suffix('h').unwrap_or(rest).trim_end();
     let mut fields = rest.split([':', '.', 'h']);
     let mut time = [0; 3];
@@ -95,7 +95,7 @@ fn spoken(text: &str) -> Option<[u32; 3]> {
     Some(time)
 }
 
-/// A step as people write it, as a site file says it: `30min`, `1 h`, `0,5 h`, `90s`.
+/// A step as people write it, in the spelling of site files: `30min`, `1 h`, `0,5 h`, `90s`.
 ///
 /// # Errors
 /// [`TypedError::Step`], and [`SunError::ZeroStep`].
@@ -120,10 +120,10 @@ pub fn step(text: &str) -> Result<String, TypedError> {
     }
 }
 
-/// The word that asks for the instants alone, where times of change could be found between them.
+/// The word that asks for the instants alone, without times of change between them.
 pub(super) const INSTANTS_ALONE: &str = "step";
 
-/// To within what time changes are found, as people write it: a duration as a [`step`] is one, or `step` itself.
+/// The precision of times of change as people write it: a duration like a [`step`], or the word `step`.
 ///
 /// # Errors
 /// [`TypedError::Resolution`]

@@ -1,4 +1,4 @@
-//! Latitude and longitude as they are typed, one of them or both.
+//! Latitude and longitude as people type them, one or both.
 
 use super::number::number;
 use super::{Axis, TypedError};
@@ -19,7 +19,7 @@ impl Axis {
     }
 }
 
-/// The content of a field for one angle.
+/// The contents of a field for one angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Degrees {
     /// The angle.
@@ -28,7 +28,8 @@ pub enum Degrees {
     Both([f64; 2]),
 }
 
-/// An angle as people write it, or a place where one is pasted: `48.2082`, `48,2082`, `48.2082° N`, `48°12'30" N`.
+/// Reads an angle as people write it, or a whole place if one is pasted: `48.2082`, `48,2082`, `48.2082° N`, `48°12'30"
+/// N`.
 ///
 /// # Errors
 /// [`TypedError::Degrees`], and [`SunError::OutOfRange`].
@@ -40,15 +41,15 @@ pub fn degrees(text: &str, axis: Axis) -> Result<Degrees, TypedError> {
     }
     match (place(text), one) {
         (Ok(both), _) => Ok(Degrees::Both(both)),
-        // two angles, of which one cannot be
+        // two angles, one of which is out of range
         (Err(TypedError::Sun(error)), None) => Err(error.into()),
         (Err(_), Some(Err(error))) => Err(error),
         (Err(_), _) => Err(TypedError::Degrees { text: text.trim().to_owned(), axis }),
     }
 }
 
-/// Latitude and longitude as people write them: `48.2082, 16.3738`, `48,2082; 16,3738`, `48.2082 16.3738`,
-/// `48°12'30" N 16°22'26" E`. Letters say which is which; without them the latitude is the first. Degrees, north and
+/// Reads latitude and longitude as people write them: `48.2082, 16.3738`, `48,2082; 16,3738`, `48.2082 16.3738`,
+/// `48°12'30" N 16°22'26" E`. Letters say which is which; without them the latitude comes first. Degrees, north and
 /// east positive.
 ///
 /// # Errors
@@ -67,7 +68,7 @@ pub fn place(text: &str) -> Result<[f64; 2], TypedError> {
     Ok([Axis::Latitude.checked(latitude)?, Axis::Longitude.checked(longitude)?])
 }
 
-/// One sign for each thing that keyboards and word processors have several for.
+/// Replaces the variants of signs that keyboards and word processors use.
 fn plain(text: &str) -> String {
     let one = |char: char| match char {
         '−' | '–' => '-',
@@ -81,7 +82,7 @@ fn plain(text: &str) -> String {
     text.replace("''", "\"")
 }
 
-/// The two angles of a place: what parts them is what most surely does.
+/// Splits the two angles of a place at the most certain separator.
 fn halves(text: &str) -> Option<(&str, &str)> {
     let letters: Vec<usize> = text.match_indices(['N', 'S', 'E', 'W']).map(|(at, _)| at).collect();
     let is_apart = |at: usize| text[..at].ends_with(' ') || text[at + 1..].starts_with(' ');
@@ -104,7 +105,7 @@ fn halves(text: &str) -> Option<(&str, &str)> {
         let (first, second) = text.split_at(text[..second].trim_end_matches(is_of_number).len());
         return Some((first.trim_end(), second.trim_start_matches(',')));
     }
-    // a single letter may belong to degrees and minutes
+    // a single letter may be part of degrees and minutes
     if let [first, second] = text.split(' ').filter(|part| !part.is_empty()).collect::<Vec<_>>()[..]
         && letters.len() != 1
     {
@@ -116,7 +117,7 @@ fn halves(text: &str) -> Option<(&str, &str)> {
     }
 }
 
-/// Degrees, or degrees, minutes and seconds, and the letter beside them.
+/// Degrees, or degrees, minutes and seconds, with the letter beside them.
 fn single(text: &str) -> Option<(f64, Option<char>)> {
     let is_letter = |char: &char| matches!(char, 'N' | 'S' | 'E' | 'W');
     let text = text.trim();
@@ -128,7 +129,7 @@ fn single(text: &str) -> Option<(f64, Option<char>)> {
     };
     let text = text.trim();
     let (negative, mut rest) = match text.strip_prefix('-') {
-        // a sign and a letter may say two things
+        // a sign and a letter could contradict each other
         Some(_) if letter.is_some() => return None,
         Some(rest) => (true, rest.trim_start()),
         None => (matches!(letter, Some('S' | 'W')), text.strip_prefix('+').unwrap_or(text)),
@@ -149,7 +150,7 @@ fn single(text: &str) -> Option<(f64, Option<char>)> {
         rest = rest[end..].trim_start();
         match rest.strip_prefix(mark) {
             Some(after) => rest = after.trim_start(),
-            // blanks alone part minutes from degrees only where a letter ends them
+            // spaces separate minutes from degrees only if a letter follows
             None if rest.is_empty() || letter.is_some() => {}
             None => return None,
         }

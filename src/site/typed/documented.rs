@@ -1,11 +1,11 @@
-//! Values that have one way to be written, which is documented: those of site files and options.
+//! Values with one documented spelling: those of site files and options.
 
 use super::TypedError;
 use super::date::INSTANTS_ALONE;
 use crate::message::Field;
 use crate::sun::parse_duration_secs;
 
-/// `N` finite numbers, separated by commas; the example is a hint in the error.
+/// Reads `N` finite numbers, separated by commas; `example` is a hint for the error.
 ///
 /// # Errors
 /// [`TypedError::Numbers`]
@@ -16,7 +16,7 @@ pub fn numbers<const N: usize>(text: &str, example: (Field, &'static str)) -> Re
     read.and_then(|numbers| numbers.try_into().ok()).ok_or_else(bad)
 }
 
-/// To within how many seconds times of change are found: a duration above 0, or `step` for the instants alone, which is 0.
+/// Reads the precision of times of change in seconds: a duration above 0, or `step` for the instants alone, which is 0.
 ///
 /// # Errors
 /// [`TypedError::Resolution`]

@@ -1,11 +1,11 @@
-//! Why a typed value is not accepted.
+//! Why a typed value is refused.
 
 use super::Axis;
 use crate::message::{Field, Message, Worded, message, plain_display};
 use crate::sun::SunError;
 use chrono::NaiveDate;
 
-/// Why a typed value is not accepted.
+/// Why a typed value is refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TypedError {
     /// Not a number.
@@ -14,45 +14,45 @@ pub enum TypedError {
     Outside {
         /// What was typed.
         value: f64,
-        /// Smallest value taken.
+        /// The least allowed value.
         low: f64,
-        /// Largest value taken.
+        /// The greatest allowed value.
         high: f64,
-        /// Of all three numbers.
+        /// The unit of all three.
         unit: &'static str,
     },
-    /// Not so many numbers.
+    /// A different number of numbers.
     Numbers {
         /// What was typed.
         text: String,
-        /// How many are meant.
+        /// The number that is expected.
         count: usize,
-        /// What to write, and for which field.
+        /// An example, and its field.
         example: (Field, &'static str),
     },
-    /// Not an angle on the globe.
+    /// Not an angle.
     Degrees {
         /// What was typed.
         text: String,
-        /// For what.
+        /// Latitude or longitude.
         axis: Axis,
     },
-    /// Not two of them.
+    /// Not a latitude and a longitude.
     Place(String),
-    /// A coordinate off the globe, or a step of 0.
+    /// A coordinate out of range, or a step of 0.
     Sun(#[from] SunError),
     /// Not a date.
     Date(String),
-    /// A date that can be read in two ways.
+    /// An ambiguous date.
     TwoDates {
         /// What was typed.
         text: String,
-        /// The day first, the month first.
+        /// With the day first, and with the month first.
         dates: [NaiveDate; 2],
     },
     /// Not a time of day.
     Clock(String),
-    /// The end of a day, which belongs to the next one.
+    /// 24 o'clock, which belongs to the next day.
     DayEnd,
     /// Not a duration.
     Step(String),
@@ -65,7 +65,7 @@ plain_display!(TypedError);
 impl Worded for TypedError {
     fn message(&self) -> Message {
         match self {
-            TypedError::Number(text) => message![format!("\"{text}\" is no number"); "write for example 0.5 or 0,5"],
+            TypedError::Number(text) => message![format!("\"{text}\" is not a number"); "write for example 0.5 or 0,5"],
             TypedError::Outside { value, low, high, unit } => {
                 format!("{value} is not between {low} and {high} {unit}").into()
             }
@@ -74,34 +74,34 @@ impl Worded for TypedError {
                 "write for example ", *example
             ],
             TypedError::Degrees { text, axis } => message![
-                format!("\"{text}\" is no {axis}");
+                format!("\"{text}\" is not a {axis}");
                 format!("write degrees, for example {}", axis.example())
             ],
             TypedError::Place(text) => message![
-                format!("\"{text}\" is no place");
+                format!("\"{text}\" is not a place");
                 "write latitude and longitude in degrees, for example 48.2082, 16.3738 or 48°12'30\" N 16°22'26\" E"
             ],
             TypedError::Sun(error) => error.message(),
-            TypedError::Date(text) => message![format!("\"{text}\" is no date"); "write 2026-12-21 or 21.12.2026"],
+            TypedError::Date(text) => message![format!("\"{text}\" is not a date"); "write 2026-12-21 or 21.12.2026"],
             TypedError::TwoDates { text, dates: [first, second] } => message![
                 format!("\"{text}\" can be {} or {}", long(*first), long(*second));
                 format!("write {first} or {second}")
             ],
             TypedError::Clock(text) => message![
-                format!("\"{text}\" is no time");
+                format!("\"{text}\" is not a time");
                 "write 16:30, 16.30, 4 pm, sunrise or sunset-1h30"
             ],
             TypedError::DayEnd => message!["a day has no 24 o'clock"; "write 0:00 for its end"],
-            TypedError::Step(text) => message![format!("\"{text}\" is no step"); "write 30min, 1h, 1h30 or 90s"],
+            TypedError::Step(text) => message![format!("\"{text}\" is not a step"); "write 30min, 1h, 1h30 or 90s"],
             TypedError::Resolution(text) => message![
-                format!("\"{text}\" is no resolution");
+                format!("\"{text}\" is not a resolution");
                 "write 1min, 10s, or step for the instants alone"
             ],
         }
     }
 }
 
-/// A date in words that nobody reads otherwise.
+/// A date in words that can be read in only one way.
 fn long(date: NaiveDate) -> String {
     date.format("%-d %B %Y").to_string()
 }

@@ -1,7 +1,7 @@
-//! Numbers, degrees, dates and times in all the ways in which people type and paste them.
+//! Reads numbers, degrees, dates and times in all the spellings that people type and paste.
 //!
-//! The window's fields and the command's place are read in this way. Site files and all other options have one way,
-//! which is documented, and a few of their readers stand here, too.
+//! The window's fields and the command's place are read in this way. Site files and all other options have one
+//! documented spelling; a few of their readers are here, too.
 
 mod axis;
 mod date;

@@ -3,10 +3,10 @@
 use super::TypedError;
 use std::ops::RangeInclusive;
 
-/// A number as people write it: `0.5`, `0,5`, `1 234.5`, `1.234,5`, `1,234.5`, `1'234.5`, `−3`, `1e-3`.
+/// Reads a number as people write it: `0.5`, `0,5`, `1 234.5`, `1.234,5`, `1,234.5`, `1'234.5`, `−3`, `1e-3`.
 ///
-/// A single point or comma parts the decimals, whatever follows it: `1,234` is a little more than one. Where there are
-/// both, the last one does. What parts thousands has three digits between it and the next.
+/// A single point or comma is the decimal separator, whatever follows it: `1,234` is a little more than 1. If there are
+/// both, the last one is. Thousands separators must have three digits between them.
 ///
 /// # Errors
 /// [`TypedError::Number`].
@@ -14,7 +14,7 @@ pub fn number(text: &str) -> Result<f64, TypedError> {
     read(text).ok_or_else(|| TypedError::Number(text.trim().to_owned()))
 }
 
-/// A number in a range.
+/// Reads a number within a range.
 ///
 /// # Errors
 /// [`TypedError::Number`], [`TypedError::Outside`].
@@ -31,7 +31,7 @@ fn read(text: &str) -> Option<f64> {
     let (digits, exponent) = unsigned.split_once(['e', 'E']).unwrap_or((unsigned, "0"));
     let exponent: i32 = exponent.parse().ok()?;
     let mark = digits.rfind(['.', ',']).filter(|at| {
-        // what stands there more than once parts thousands
+        // a mark that occurs more than once separates thousands
         let mark = &digits[*at..=*at];
         digits.matches(mark).count() == 1
     });
@@ -44,7 +44,7 @@ fn read(text: &str) -> Option<f64> {
     number.ok().filter(|number: &f64| number.is_finite())
 }
 
-/// The digits before the decimals, without what parts their thousands.
+/// Removes the thousands separators from the digits before the decimals.
 fn without_thousands(text: &str) -> Option<String> {
     let Some(mark) = text.chars().find(|char| !char.is_ascii_digit()) else { return Some(text.to_owned()) };
     if !mark.is_whitespace() && !matches!(mark, '.' | ',' | '\'' | '’') {

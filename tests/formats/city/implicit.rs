@@ -151,7 +151,7 @@ fn a_tree_that_never_ends_is_refused_soon() {
         assert!(error.contains(words), "{error}");
         assert!(started.elapsed() < Duration::from_secs(30), "it is followed for too long");
     };
-    refused(1, "more lists of tiles than can be read");
+    refused(1, "more subtree files than can be read");
     refused(20, "more than 1000000 tiles");
     refused(40, "no content in its folder");
 }

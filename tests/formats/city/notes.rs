@@ -17,7 +17,7 @@ fn notes_name_the_footprints_that_they_are_about() {
         texts(&model_of("a.geojson", houses.to_string())).concat()
     };
     assert!(
-        told(&["Mill"]).contains("no height of 1 footprint (Mill): a storey is guessed to be 3 m"),
+        told(&["Mill"]).contains("no height of 1 footprint (Mill): a storey is assumed to be 3 m"),
         "{}",
         told(&["Mill"])
     );

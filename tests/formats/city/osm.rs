@@ -93,7 +93,7 @@ fn guesses_are_told_with_how_many() {
     let file = houses(&properties).to_string();
     let model = model_of("a.geojson", &file);
     let notes = texts(&model);
-    assert!(notes[0].contains("no height of 2 footprints") && notes[0].contains("guessed to be 3 m high"), "{notes:?}");
+    assert!(notes[0].contains("no height of 2 footprints") && notes[0].contains("assumed to be 3 m high"), "{notes:?}");
     assert!(
         notes.iter().any(|note| note.contains("1 height (of ") && note.contains(") written otherwise")),
         "{notes:?}"

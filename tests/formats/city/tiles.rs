@@ -185,7 +185,7 @@ fn implicit_tilings_other_contents_and_circles_are_told() {
     let error = fault(&path);
     assert!(error.contains("copy the whole folder") && error.contains("gone cannot be read"), "{error}");
     let (_folder, path) = written("tileset.json", tileset(tile("tileset.json")));
-    assert!(fault(&path).contains("(1 tileset: tilesets name each other too often)"), "{}", fault(&path));
+    assert!(fault(&path).contains("(1 tileset: tilesets are nested too deeply)"), "{}", fault(&path));
     let (_folder, path) = written("tileset.json", tileset(tile("../a.glb")));
-    assert!(fault(&path).contains("the address does not lie in the tileset's folder"), "{}", fault(&path));
+    assert!(fault(&path).contains("the address is outside of the tileset's folder"), "{}", fault(&path));
 }

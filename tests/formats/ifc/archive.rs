@@ -55,8 +55,8 @@ fn bombs_and_broken_archives_are_refused() {
         changed[at] = value;
         changed
     };
-    refused(&with(listed + 25, 0), "is not what the directory says of it");
-    refused(&with(listed + 16, good[listed + 16] ^ 1), "is not what the directory says of it");
+    refused(&with(listed + 25, 0), "differs from what the directory says");
+    refused(&with(listed + 16, good[listed + 16] ^ 1), "differs from what the directory says");
     refused(&with(listed + 10, 99), "is packed by method 99");
     refused(&with(listed + 8, 1), "is encrypted");
     refused(&with(listed + 45, 0x7f), "an entry lies beyond its end");

@@ -110,7 +110,7 @@ fn numbers_beyond_all_bounds_are_no_shape() {
     }
     let text = house("").replace("#3=IFCSIUNIT(*,.LENGTHUNIT.,.MILLI.,.METRE.);", "#3=IFCCONVERSIONBASEDUNIT($,.LENGTHUNIT.,'OWN',#9);\n#9=IFCMEASUREWITHUNIT(IFCLENGTHMEASURE(0.),#8);\n#8=IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.);");
     let error = read_as("house.ifc", text.as_bytes()).expect_err("no unit");
-    assert!(error.contains("has a unit of length that is no number"), "{error}");
+    assert!(error.contains("has a unit of length that is not a number"), "{error}");
 }
 
 #[test]
@@ -119,5 +119,5 @@ fn long_names_are_cut_and_told() {
     let model = read_as("house.ifc", text.as_bytes()).expect("read");
     let aliases = || model.parts.iter().flat_map(|part| &part.aliases);
     assert!(aliases().all(|name| name.len() <= 1000) && aliases().any(|name| name.len() == 1000));
-    assert!(super::notes(&model).contains("has names of more than 1000 bytes (2), which are cut"));
+    assert!(super::notes(&model).contains("has names of more than 1000 bytes (2), which are shortened"));
 }

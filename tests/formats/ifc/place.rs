@@ -14,7 +14,7 @@ fn said_by<'a>(model: &'a Model, what: &str) -> &'a Anchor {
 #[track_caller]
 fn is_at(anchor: &Anchor, latitude: f64, longitude: f64, elevation: Option<f64>) {
     let AnchorPoint::Geographic { latitude_deg, longitude_deg, elevation_m } = anchor.at else {
-        panic!("{anchor:?} is no place of the Earth")
+        panic!("{anchor:?} is not a place of the Earth")
     };
     // a millimetre
     assert!((latitude_deg - latitude).abs() < 1e-8 && (longitude_deg - longitude).abs() < 1e-8, "{anchor:?}");
@@ -171,5 +171,5 @@ fn its_relatives_are_read() {
     is_on_map(said_by(&model, "ePSet_MapConversion"), "EPSG:2056", [2_600_000.0, 1_200_000.0, 0.0], 1.0);
     let alone = read(&house("#950=IFCPROJECTEDCRS('EPSG:25832',$,$,$,$,$,$);"));
     assert_eq!(alone.anchors.len(), 1);
-    assert!(notes(&alone).contains("does not say where on it"), "{}", notes(&alone));
+    assert!(notes(&alone).contains("does not say where on that map"), "{}", notes(&alone));
 }

@@ -1,11 +1,11 @@
-//! Mode 0 (attributes), and the filters that its elements may have.
+//! Mode 0 (attributes), and the filters for its elements.
 
-/// Elements of a group.
+/// The elements in a group.
 const GROUP: usize = 16;
-/// The most elements of a block.
+/// The most elements in a block.
 const BLOCK: usize = 256;
 
-/// Elements of `stride` bytes; none where the bytes are not a whole stream of `count` of them.
+/// Decodes `count` elements of `stride` bytes; `None` if the bytes are not a complete stream of them.
 pub(super) fn decode(source: &[u8], count: usize, stride: usize) -> Option<Vec<u8>> {
     if stride == 0 || stride > 256 || !stride.is_multiple_of(4) {
         return None;
@@ -28,7 +28,7 @@ pub(super) fn decode(source: &[u8], count: usize, stride: usize) -> Option<Vec<u
         let elements = left.min(most);
         let controls = if is_first { None } else { Some(take(&mut rest, channels)?) };
         let begin = decoded.len();
-        // no more than the bytes that are there can stand for is taken: a block takes at least a byte a channel
+        // limits the allocation by the bytes that are left: a block takes at least a byte for each channel
         decoded.resize(begin + elements * stride, 0);
         for (channel, last) in last.as_chunks_mut::<4>().0.iter_mut().enumerate() {
             let mut lanes = [[0; BLOCK]; 4];
@@ -49,7 +49,7 @@ pub(super) fn decode(source: &[u8], count: usize, stride: usize) -> Option<Vec<u
     rest.is_empty().then_some(decoded)
 }
 
-/// The deltas of one byte of the elements of a block.
+/// The deltas of one byte of the elements in a block.
 fn read_lane(rest: &mut &[u8], control: Option<u8>, elements: usize, lane: &mut [u8; BLOCK]) -> Option<()> {
     let widths: [u32; 4] = match control {
         None => [0, 2, 4, 8],
@@ -79,7 +79,7 @@ fn read_group(rest: &mut &[u8], width: u32, into: &mut [u8; GROUP]) -> Option<()
             let (in_byte, sentinel) = (8 / width as usize, (1_u8 << width) - 1);
             for (at, into) in into.iter_mut().enumerate() {
                 let place = (at % in_byte) as u32 * width;
-                // single bits are packed from the least significant one, others from the most
+                // single bits are packed from the least significant bit, wider values from the most significant
                 let shift = if width == 1 { place } else { 8 - width - place };
                 let code = packed.get(at / in_byte)? >> shift & sentinel;
                 *into = if code == sentinel { *take(rest, 1)?.first()? } else { code };
@@ -89,7 +89,7 @@ fn read_group(rest: &mut &[u8], width: u32, into: &mut [u8; GROUP]) -> Option<()
     Some(())
 }
 
-/// Four bytes of an element, from those of the one before.
+/// Four bytes of an element, from those of the previous one.
 fn step(last: [u8; 4], deltas: [u8; 4], mode: u8) -> Option<[u8; 4]> {
     match (mode & 15, mode >> 4) {
         (0, 0) => {
@@ -121,7 +121,7 @@ fn take<'a>(rest: &mut &'a [u8], count: usize) -> Option<&'a [u8]> {
     Some(taken)
 }
 
-/// Filter 3: an exponent in the high byte and a mantissa of 24 bits, both with a sign, become a float.
+/// Filter 3: an exponent in the high byte and a 24-bit mantissa, both signed, become a float.
 pub(super) fn exponential(bytes: &mut [u8]) {
     for four in bytes.as_chunks_mut::<4>().0 {
         let stored = i32::from_le_bytes(*four);
@@ -130,12 +130,12 @@ pub(super) fn exponential(bytes: &mut [u8]) {
     }
 }
 
-/// Filter 2: three parts of a rotation and which one is left out become four, of 16 bits.
+/// Filter 2: three components of a rotation, and the index of the omitted one, become four 16-bit components.
 pub(super) fn quaternion(bytes: &mut [u8]) {
     for eight in bytes.as_chunks_mut::<8>().0 {
         let (stored, _) = eight.as_chunks::<2>();
         let part = |at: usize| stored.get(at).map_or(0, |two| i16::from_le_bytes(*two));
-        // the last one has the number of the part that is left out, and the scale above it
+        // the last component has the index of the omitted one, and the scale above it
         let (largest, one) = (part(3) & 3, part(3) | 3);
         let scale = std::f32::consts::FRAC_1_SQRT_2 / f32::from(one);
         let [x, y, z] = [0, 1, 2].map(|at| f32::from(part(at)) * scale);

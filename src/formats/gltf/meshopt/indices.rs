@@ -1,6 +1,6 @@
 //! Modes 1 and 2: triangles, and other sequences of indices.
 
-/// The first entries of a queue of 16, the newest first; none that was not written.
+/// A queue of the 16 newest entries, newest first.
 struct Newest<T> {
     entries: [Option<T>; 16],
     next: usize,
@@ -32,10 +32,10 @@ struct TriangleDecoder<'a> {
     vertices: Newest<u32>,
 }
 
-/// Indices of `stride` bytes; none where the bytes are not a whole stream of `count` of them.
+/// Decodes `count` indices of `stride` bytes; `None` if the bytes are not a complete stream of them.
 pub(super) fn triangles(source: &[u8], count: usize, stride: usize) -> Option<Vec<u8>> {
     let (&header, body) = source.split_first()?;
-    // the low bits are a version, of which EXT_meshopt_compression has known 0 and 1
+    // the low bits are a version; EXT_meshopt_compression has versions 0 and 1
     if !matches!(header, 0xE0 | 0xE1) || !count.is_multiple_of(3) {
         return None;
     }
@@ -89,7 +89,7 @@ impl TriangleDecoder<'_> {
         }
     }
 
-    /// A triangle whose second and third vertex are said by the halves of a byte.
+    /// A triangle whose second and third vertex are encoded in the halves of a byte.
     fn whole(&mut self, a: u32, pair: u8, may_be_explicit: bool) -> Option<[u32; 3]> {
         let (b, b_is_new) = self.named(pair >> 4, may_be_explicit)?;
         let (c, c_is_new) = self.named(pair & 15, may_be_explicit)?;
@@ -128,7 +128,7 @@ impl TriangleDecoder<'_> {
     }
 }
 
-/// Indices of `stride` bytes; none where the bytes are not a whole stream of `count` of them.
+/// Decodes `count` indices of `stride` bytes; `None` if the bytes are not a complete stream of them.
 pub(super) fn sequence(source: &[u8], count: usize, stride: usize) -> Option<Vec<u8>> {
     let (&header, body) = source.split_first()?;
     if !matches!(header, 0xD0 | 0xD1) {
@@ -155,7 +155,7 @@ fn put(decoded: &mut Vec<u8>, vertex: u32, stride: usize) -> Option<()> {
     Some(())
 }
 
-/// A number of one to five bytes, the low bits first.
+/// An integer of one to five bytes, low bits first.
 fn varint(data: &mut &[u8]) -> Option<u32> {
     let mut number = 0;
     for shift in [0, 7, 14, 21, 28] {

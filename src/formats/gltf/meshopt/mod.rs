@@ -1,8 +1,8 @@
-//! EXT_meshopt_compression and KHR_meshopt_compression: a compressed buffer view → its bytes.
+//! EXT_meshopt_compression and KHR_meshopt_compression: decodes a compressed buffer view.
 //!
-//! Written after the specification's Appendix A (bitstream) and B (filters); `attributes` and `indices` are its modes.
-//! The existing binding to the C++ library would need a C++ compiler, and the existing port has the size of a vertex
-//! fixed at compile time.
+//! Written from the specification's Appendix A (bitstream) and B (filters); `attributes` and `indices` are its modes.
+//! The existing binding to the C++ library needs a C++ compiler, and the existing port fixes the size of a vertex at
+//! compile time.
 
 mod attributes;
 mod indices;
@@ -13,7 +13,7 @@ use gltf::json::validation::USize64;
 use serde_json::Value;
 use std::ops::Range;
 
-/// What compresses a view.
+/// The compression of a view.
 pub(super) struct CompressedView<'a> {
     view: usize,
     view_bytes: u64,
@@ -21,7 +21,7 @@ pub(super) struct CompressedView<'a> {
 }
 
 impl<'a> CompressedView<'a> {
-    /// The compression of a view, where it has one.
+    /// The compression of a view, if it has one.
     pub(super) fn of(document: &'a Document, index: usize) -> Option<Self> {
         let view = document.buffer_views.get(index)?;
         let mut extensions = view.extensions.as_ref()?.others.iter();
@@ -35,24 +35,24 @@ impl<'a> CompressedView<'a> {
         self.said.get(key)?.as_u64()
     }
 
-    /// The buffer that holds the compressed bytes, and which those are.
+    /// The buffer with the compressed bytes, and their range.
     pub(super) fn source(&self) -> Result<(usize, Range<u64>), Fault> {
         let buffer = self.number("buffer").and_then(|buffer| usize::try_from(buffer).ok());
         let start = self.number("byteOffset").unwrap_or(0);
         match (buffer, self.number("byteLength")) {
             (Some(buffer), Some(length)) => Ok((buffer, start..start.saturating_add(length))),
-            _ => Err(self.damaged("does not say where its bytes lie")),
+            _ => Err(self.damaged("does not say where its bytes are")),
         }
     }
 
-    /// The bytes that the view has for its accessors.
+    /// Decodes the bytes that the view's accessors read.
     pub(super) fn decode(&self, source: &[u8]) -> Result<Vec<u8>, Fault> {
         let size = |key| self.number(key).and_then(|number| usize::try_from(number).ok());
         let (Some(count), Some(stride)) = (size("count"), size("byteStride")) else {
             return Err(self.damaged("does not say how many elements it has"));
         };
         if count.checked_mul(stride).is_none_or(|bytes| bytes as u64 != self.view_bytes) {
-            return Err(self.damaged("has another size than its elements"));
+            return Err(self.damaged("has a different size than its elements"));
         }
         let mode = self.said.get("mode").and_then(Value::as_str).unwrap_or_default();
         let mut decoded = match mode {
@@ -66,11 +66,11 @@ impl<'a> CompressedView<'a> {
             ("NONE", _) => (),
             ("EXPONENTIAL", _) => attributes::exponential(&mut decoded),
             ("QUATERNION", 8) => attributes::quaternion(&mut decoded),
-            // what they pack moves no vertex
+            // such elements do not move vertices
             ("OCTAHEDRAL" | "COLOR", _) => {
-                return Err(self.damaged("holds directions or colours where others are read"));
+                return Err(self.damaged("contains directions or colours where other values are expected"));
             }
-            _ => return Err(self.damaged("has a filter that is not known")),
+            _ => return Err(self.damaged("has an unknown filter")),
         }
         Ok(decoded)
     }
