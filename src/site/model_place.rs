@@ -13,7 +13,7 @@ use super::stand::{ONE_MERIDIAN_RAD, StandingModel};
 use super::written::WrittenSite;
 use crate::crs::{Crs, CrsKind, GeodeticPoint, LocalFrame};
 use crate::formats::{Anchor, AnchorPoint, Coordinates, Model, ModelError, Up};
-use crate::message::{Field, Message, Piece, message, pieces, set_to, setting};
+use crate::message::{Field, Message, Piece, message, pieces, place_setting, set_to, setting};
 use glam::DVec3;
 use std::path::Path;
 
@@ -213,10 +213,10 @@ fn written_frame<'a>(
 
 /// That a model's file says the place's elevation, with the model for its subject.
 pub(super) fn elevation_note(height_m: f64) -> Message {
-    let key = set_to("[place]", "elevation", height_m.to_string(), "`elevation`".to_owned());
+    let key = set_to("[place]", "elevation", height_m.to_string(), "`elevation` in [place]".to_owned());
     message![
         format!("says the elevation of the place, {}, as nobody wrote one", metres(height_m));
-        key, " in [place] changes it"
+        key, " changes it"
     ]
 }
 
@@ -273,6 +273,11 @@ impl WrittenSite {
         self.text.is_empty() && !self.site.model.is_empty()
     }
 
+    /// A note, which names no keys of a site file where there is none.
+    pub(super) fn worded(&self, note: Message) -> Message {
+        if self.is_bare_model() { note.of_bare_model() } else { note }
+    }
+
     /// That its place is a file's, where nobody has changed it since; a sentence without its stop.
     pub(super) fn place_note(&self) -> Option<Message> {
         let table = self.site.place.as_ref()?;
@@ -283,8 +288,12 @@ impl WrittenSite {
             height_m: table.elevation.unwrap_or_default(),
         };
         let height = table.elevation.map(|height| format!(", {} above the sea", metres(height))).unwrap_or_default();
+        let what = format!("place from {said}: {}{height}", degrees(at));
+        if self.is_bare_model() {
+            return Some(message![what; "change it with ", place_setting("latitude and longitude in [place]")]);
+        }
         Some(message![
-            format!("place from {said}: {}{height}", degrees(at));
+            what;
             setting("[place]", "latitude", "latitude"), ", ",
             setting("[place]", "longitude", "longitude"), " and ",
             setting("[place]", "elevation", "elevation in [place]"), " change it",
@@ -298,6 +307,7 @@ impl WrittenSite {
             StandFault::Key(key, message) if !self.is_bare_model() => refuse(self.model_key(index, key), message),
             // without a site file there is no key, and the model is at fault
             StandFault::Key(_, message) | StandFault::File(message) => {
+                let message = self.worded(message);
                 let path = self.site.model.get(index).and_then(|table| table.path.as_deref()).unwrap_or_default();
                 ModelError { file: self.folder.join(path), fault: message.into() }.into()
             }

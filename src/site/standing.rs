@@ -8,7 +8,7 @@ use super::ground::metres;
 use super::terrain::FIRST;
 use crate::mesh::Mesh;
 use crate::mesh::scan::{by_rows, spans, wholes};
-use crate::message::{Message, message};
+use crate::message::{Message, Piece, message, setting};
 use glam::{DVec2, DVec3, Vec3Swizzles as _};
 
 /// Cells along the longer side of a model's plan, at most.
@@ -73,13 +73,17 @@ pub(super) fn note(mesh: &Mesh, terrain: &TerrainFaces, components: &[usize], mo
         count => format!("{model} has {count} buildings: {}", told.join("; ")),
     };
     Some(match (floating > 0, buried > 0) {
-        (true, _) => message![what; "light falls under what floats: `position` under [[model]] moves a model"],
+        (true, _) => message![what; "light falls under what floats: ", position(), " moves a model"],
         (false, true) => message![
             what;
-            "if no cellar is meant, its heights count from elsewhere: `position` under [[model]] moves a model"
+            "if no cellar is meant, its heights count from elsewhere: ", position(), " moves a model"
         ],
         (false, false) => message![what],
     })
+}
+
+fn position() -> Piece {
+    setting("[[model]]", "position", "`position` under [[model]]")
 }
 
 /// How one building stands, metres.

@@ -92,3 +92,30 @@ fn a_text_of_facets_without_its_end_is_told() {
     let told = done(folder.path(), "check m.stl");
     assert!(told.contains("note: m.stl ends without `endsolid`, so it may be cut off"), "{told}");
 }
+
+/// A model without a site file has no keys: what an option says is said with it, and a key is said to be one of a site file.
+#[test]
+fn hints_for_a_model_alone_name_options() {
+    let folder = site();
+    let town = r#"{"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {"height": 12, "name": "hall"},
+        "geometry": {"type": "Polygon", "coordinates": [[[16.3, 48.2], [16.301, 48.2], [16.301, 48.201], [16.3, 48.2]]]}}]}"#;
+    std::fs::write(folder.path().join("town.geojson"), town).unwrap();
+    let notes = |command: &str| {
+        let output = crate::shared::program::gnomon(folder.path(), command);
+        format!("{}{}", crate::shared::program::stderr(&output), String::from_utf8_lossy(&output.stdout))
+    };
+    for command in ["sun town.geojson --at 2026-06-21T12:00", "check town.geojson"] {
+        let told = notes(command);
+        let note = "place from town.geojson, ";
+        assert!(told.contains(note) && told.contains("change it with --place LAT,LON"), "{told}");
+        assert!(!told.contains("in [place]"), "{told}");
+        assert!(told.matches("[[model]]").count() == told.matches("under [[model]] in a site file").count(), "{told}");
+    }
+    let json = done(folder.path(), "sun town.geojson --at 2026-06-21T12:00 --json");
+    assert!(json.contains("place from town.geojson, ") && json.contains("change it with --place LAT,LON"), "{json}");
+    // a site file has the keys
+    std::fs::write(folder.path().join("town.toml"), "[[model]]\npath = \"town.geojson\"\n").unwrap();
+    let told = notes("check town.toml");
+    assert!(told.contains("latitude, longitude and elevation in [place] change it"), "{told}");
+    assert!(told.contains("`crs` under [[model]] changes it") && !told.contains("in a site file"), "{told}");
+}

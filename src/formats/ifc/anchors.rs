@@ -7,7 +7,7 @@
 
 use super::super::{Anchor, AnchorPoint};
 use super::scan::IfcScan;
-use crate::message::{Message, message};
+use crate::message::{Message, message, setting};
 use ifc_lite_core::{
     CoordinateOperationKind, EntityDecoder, GeoRefExtractor, GeoRefSource, GeoReference, GeoReferenceDetails, IfcType,
 };
@@ -103,7 +103,7 @@ impl IfcPlaces {
             if axis.is_some_and(|(x, y)| x.hypot(y) < 1e-9) {
                 self.notes.push(message![
                     "says by its IfcMapConversion an XAxis of (0, 0), which is no direction: it is taken as not turned on its map";
-                    "`north` under [[model]] turns it"
+                    setting("[[model]]", "north", "`north` under [[model]]"), " turns it"
                 ]);
                 return;
             }
@@ -125,7 +125,7 @@ impl IfcPlaces {
                  map's zero, so it is taken in metres",
                 map.eastings, map.northings
             );
-            "`position` under [[model]] changes where it stands"
+            setting("[[model]]", "position", "`position` under [[model]]"), " changes where it stands"
         ]);
         1.0
     }
@@ -194,7 +194,7 @@ impl IfcPlaces {
             self.notes.push(message![
                 format!("has its IfcSite {:.0} km from its own zero, so its coordinates are those of a map that it does \
                          not name", x.hypot(y) / 1000.0);
-                "say which one with crs"
+                "say which one with ", setting("[[model]]", "crs", "`crs` under [[model]]")
             ]);
             return;
         }
