@@ -44,7 +44,9 @@ pub fn load_sun(path: &Path, asked: &Overrides) -> Result<LoadedSun, SiteError> 
     let (written, _) = as_written.located(|| Models::read(&as_written, read))?;
     let mut place = written.place(asked)?;
     let mut notes: Vec<Message> = written.place_note().into_iter().collect();
-    if as_written.point()?.is_some() {
+    if as_written.point()?.is_none() {
+        notes.extend(written.place_doubt());
+    } else {
         let (elevation_m, note) = elevation(&as_written, read)?;
         place.elevation_m = elevation_m.unwrap_or(place.elevation_m);
         notes.extend(note);

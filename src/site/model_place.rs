@@ -241,9 +241,16 @@ pub(super) fn frame<'a>(
     let sure = proposed.iter().find(is_sure).or(proposed.first());
     let Some((ProposedPoint { at, has_elevation }, name, said)) = sure else { return Ok(ModelsFrame::default()) };
     // where the first says no elevation, another may
-    let with_elevation =
-        || proposed.iter().find(|(point, ..)| point.has_elevation).map(|(point, ..)| point.at.height_m);
-    let of_files = || has_elevation.then_some(at.height_m).or_else(with_elevation);
+    let around = LocalFrame::around(*at);
+    let is_near = |point: &ProposedPoint| {
+        let there = around.as_ref().and_then(|around| around.point(point.at));
+        there.is_some_and(|there| there.truncate().length() <= FAR_M)
+    };
+    let other = proposed.iter().find(|(point, ..)| point.has_elevation && is_near(point));
+    let other = other.filter(|_| !has_elevation && table.elevation.is_none()).map(|(point, name, said)| {
+        ElevationSource { said: format!("{name}, {}", said.said_by), elevation: point.at.height_m }
+    });
+    let of_files = || has_elevation.then_some(at.height_m).or(other.as_ref().map(|other| other.elevation));
     let elevation = table.elevation.or_else(of_files);
     let height_m = elevation.unwrap_or_default();
     let table = PlaceTable {
@@ -254,6 +261,7 @@ pub(super) fn frame<'a>(
             said: format!("{name}, {}", said.said_by),
             at: [at.latitude_deg, at.longitude_deg],
         }),
+        elevation_source: other,
         ..table
     };
     let point = if matches!(said.reference, Reference::Map { .. }) { "middle" } else { "zero" };
@@ -287,7 +295,9 @@ impl WrittenSite {
             longitude_deg: table.longitude?,
             height_m: table.elevation.unwrap_or_default(),
         };
-        let height = table.elevation.map(|height| format!(", {} above the sea", metres(height))).unwrap_or_default();
+        let by = table.elevation_said_by().map(|by| format!(", as {by} says")).unwrap_or_default();
+        let height =
+            table.elevation.map(|height| format!(", {} above the sea{by}", metres(height))).unwrap_or_default();
         let what = format!("place from {said}: {}{height}", degrees(at));
         if self.is_bare_model() {
             return Some(message![what; "change it with ", place_setting("latitude and longitude in [place]")]);
@@ -299,6 +309,15 @@ impl WrittenSite {
             setting("[place]", "elevation", "elevation in [place]"), " change it",
             Piece::Where(Field::Place, pieces![", or ", (Field::Place, "LAT,LON")])
         ])
+    }
+
+    /// That a place that a file says may be one that nobody has set.
+    pub(super) fn place_doubt(&self) -> Option<Message> {
+        let source = self.site.place.as_ref()?.source.as_ref()?;
+        let (name, said_by) = source.said.rsplit_once(", ")?;
+        let [latitude_deg, longitude_deg] = source.at;
+        let doubt = place_doubts::of(Some(GeodeticPoint { latitude_deg, longitude_deg, height_m: 0.0 }), said_by)?;
+        Some(doubt.about(name))
     }
 
     /// Why one of the models cannot stand where it is said.
