@@ -195,6 +195,8 @@ pub enum Piece {
         value: Option<String>,
         /// How a site file has it, in a sentence.
         written: Cow<'static, str>,
+        /// What a face may have in its place: only said where there is no site file.
+        field: Option<Field>,
     },
     /// Pieces for those faces alone that have a field.
     Where(Field, Vec<Piece>),
@@ -263,12 +265,28 @@ pub(crate) fn aside(field: Field) -> Piece {
 
 /// A key that may be set, as a sentence has it that speaks of a site file.
 pub(crate) fn setting(table: &'static str, key: &'static str, written: &'static str) -> Piece {
-    Piece::Setting { table: table.into(), key: key.into(), value: None, written: written.into() }
+    Piece::Setting { table: table.into(), key: key.into(), value: None, written: written.into(), field: None }
 }
 
 /// The same with the value that it is to have.
 pub(crate) fn set_to(table: &'static str, key: &'static str, value: String, written: String) -> Piece {
-    Piece::Setting { table: table.into(), key: key.into(), value: Some(value), written: written.into() }
+    Piece::Setting { table: table.into(), key: key.into(), value: Some(value), written: written.into(), field: None }
+}
+
+/// The point of the place: latitude and longitude under `[place]`, as `written` has them in a sentence.
+pub(crate) fn place_setting(written: &'static str) -> Piece {
+    setting("[place]", "", written)
+}
+
+/// The field that a face may have for a key, and its value where the key has none.
+fn field_of(table: &str, key: &str) -> Option<(Field, Option<&'static str>)> {
+    match (table, key) {
+        ("[place]", "") => Some((Field::Place, Some("LAT,LON"))),
+        ("[[model]]", "up") => Some((Field::Up, None)),
+        ("[[model]]", "default_height") => Some((Field::DefaultHeight, None)),
+        ("[ground]", "level") => Some((Field::Ground, None)),
+        _ => None,
+    }
 }
 
 impl From<String> for Message {
@@ -301,6 +319,28 @@ impl Message {
         self
     }
 
+    /// The same of a model without a site file: a key is a face's field where it has one, and is otherwise said to be one
+    /// of a site file.
+    pub(crate) fn of_bare_model(mut self) -> Message {
+        let mut replaced = Vec::new();
+        for piece in self.what.iter_mut().chain(&mut self.hint) {
+            let Piece::Setting { table, key, value, written, field } = piece else { continue };
+            if let Some((of_key, its)) = field_of(table, key) {
+                *field = Some(of_key);
+                *value = value.take().or_else(|| its.map(str::to_owned));
+                replaced.push(of_key);
+            }
+            if written.contains('[') && !written.contains("site file") {
+                *written = format!("{written} in a site file").into();
+            }
+        }
+        // what would only say the same field again
+        let is_new = |piece: &Piece| !matches!(piece, Piece::Where(field, _) if replaced.contains(field));
+        self.what.retain(is_new);
+        self.hint.retain(is_new);
+        self
+    }
+
     /// The message in the words of a face, on one line: what is wrong, then what can be done.
     pub fn in_words(&self, words: &dyn Words) -> String {
         let (mut text, mut hint) = (String::new(), String::new());
@@ -322,9 +362,13 @@ fn write(text: &mut String, pieces: &[Piece], words: &dyn Words) {
             Piece::Field(field) => text.push_str(name(*field)),
             Piece::Set(field, value) => text.extend([name(*field), " ", value]),
             Piece::Key(field) => text.push_str(words.key(*field)),
-            Piece::Setting { table, key, value, written } => {
-                text.push_str(&words.setting(table, key, value.as_deref(), written));
-            }
+            Piece::Setting { table, key, value, written, field } => match field.and_then(|field| words.name(field)) {
+                Some(name) => {
+                    text.push_str(name);
+                    value.iter().for_each(|value| text.extend([" ", value]));
+                }
+                None => text.push_str(&words.setting(table, key, value.as_deref(), written)),
+            },
             Piece::At { file, table, key } => text.push_str(&words.at(file, table, key)),
             Piece::Where(field, pieces) if words.name(*field).is_some() => write(text, pieces, words),
             Piece::Where(..) => {}

@@ -118,7 +118,7 @@ fn local_time_before_zones() {
     assert!(error.contains(one), "{error}");
     let track = SunTrack::at(&vienna, &one.parse().unwrap(), None, true).expect("one of the two");
     assert_eq!(track.instants[0].time.naive_utc(), naive("1893-03-31T22:52:39"));
-    let json = gnomon::export::report::sun_json(&vienna, &track).expect("a report");
+    let json = gnomon::export::report::sun_json(&vienna, &track, &[], &gnomon::message::PlainWords).expect("a report");
     assert!(json.contains("\"1893-03-31T23:58:00+01:05:21\""), "{json}");
 }
 

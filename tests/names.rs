@@ -185,7 +185,8 @@ fn see_through_materials_that_cast_are_told() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("tower.glb");
     std::fs::write(&path, model.glb()).unwrap();
-    assert_eq!(said(&gnomon::site::load_mesh(&path, &Overrides::default()).unwrap().notes), [of_three], "a bare model");
+    let of_bare = of_three.replace("under [[model]]", "under [[model]] in a site file");
+    assert_eq!(said(&gnomon::site::load_mesh(&path, &Overrides::default()).unwrap().notes), [of_bare], "a bare model");
 }
 
 /// The sum of a study's shadow on the ground, m²·h.

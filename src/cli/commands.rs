@@ -15,6 +15,7 @@ use crate::export::check::{self, CheckedMesh, TableExtent};
 use crate::export::figure::Diagram;
 use crate::export::{file, report};
 use crate::mesh::report as mesh_report;
+use crate::message::Message;
 use crate::profile::{Provenance, Statistics};
 use crate::site::{Ground, LoadedMesh, LoadedSun, Overrides, Site, load_mesh, load_sun};
 use crate::study::{Event, Stopwatch};
@@ -123,10 +124,11 @@ pub(super) fn took(statistics: &Statistics) -> String {
 /// `gnomon sun`
 pub(super) fn sun(asked: &SunArgs) -> anyhow::Result<()> {
     let LoadedSun { place, track, notes } = load_sun(&asked.path, &asked.overrides()?)?;
+    let notes: Vec<Message> = notes.into_iter().chain(track.notes()).collect();
     let mut progress = Progress::new(asked.common.quiet);
-    notes.into_iter().chain(track.notes()).for_each(|note| progress.hear(&Event::Note(note)));
+    notes.iter().for_each(|note| progress.hear(&Event::Note(note.clone())));
     match asked.common.json {
-        true => say(&report::sun_json(&place, &track)?),
+        true => say(&report::sun_json(&place, &track, &notes, &Options)?),
         false => say(&report::sun_table(&place, &track)),
     }
 }

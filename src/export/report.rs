@@ -6,7 +6,7 @@
 use super::patches::PatchContext;
 use super::{ExportError, figure};
 use crate::choice::{Filter, Finder, Receivers, Settings};
-use crate::message::{Message, PlainWords, Words};
+use crate::message::{Message, Words};
 use crate::profile::{Profile, Provenance, Statistics, Timings};
 use crate::site::Ground;
 use crate::sun::{Air, Day, Instant, Place, Polar, SunTrack, Zone};
@@ -358,13 +358,13 @@ pub(super) fn said(notes: &[Message], words: &dyn Words) -> Vec<String> {
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
-pub fn sun_json(place: &Place, track: &SunTrack) -> Result<String, ExportError> {
+pub fn sun_json(place: &Place, track: &SunTrack, notes: &[Message], words: &dyn Words) -> Result<String, ExportError> {
     json(&SunReport {
         place: place_report(place),
         tz_version: tz_version(place),
         instants: track.instants.iter().map(instant_report).collect(),
         days: track.days.iter().map(day_report).collect(),
-        notes: said(&track.notes(), &PlainWords),
+        notes: said(notes, words),
     })
 }
 

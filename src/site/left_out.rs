@@ -8,7 +8,7 @@ use super::names::names_of;
 use super::written::WrittenSite;
 use crate::formats::LeftOut;
 use crate::mesh::Component;
-use crate::message::{Field, Message, Piece, few, message, pieces};
+use crate::message::{Field, Message, Piece, few, message, pieces, setting};
 
 impl Models {
     /// The contents of each model, in the models' order.
@@ -57,11 +57,11 @@ fn note_covers(name: &str, contents: &ReadContents, components: &[Component]) ->
     let names: Vec<String> = covers.map(|(component, _)| format!("\"{}\"", component.name)).collect();
     let (count, they) = match names.len() {
         0 => return None,
-        1 => ("1 component that lies".to_owned(), "receives and does not cast; name it"),
-        more => (format!("{more} components that lie"), "receive and do not cast; name them"),
+        1 => ("1 component that lies".to_owned(), "receives and does not cast"),
+        more => (format!("{more} components that lie"), "receive and do not cast"),
     };
-    Some(
-        format!("{name} has {count} on the ground, {}, which {they} in `casts` under [[model]] to let it", few(names))
-            .into(),
-    )
+    Some(message![
+        format!("{name} has {count} on the ground, {}, which {they}", few(names));
+        setting("[[model]]", "casts", "`casts` under [[model]]"), " lets what it names cast"
+    ])
 }

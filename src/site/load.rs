@@ -44,12 +44,15 @@ pub fn load_sun(path: &Path, asked: &Overrides) -> Result<LoadedSun, SiteError> 
     let (written, _) = as_written.located(|| Models::read(&as_written, read))?;
     let mut place = written.place(asked)?;
     let mut notes: Vec<Message> = written.place_note().into_iter().collect();
-    if as_written.point()?.is_some() {
+    if as_written.point()?.is_none() {
+        notes.extend(written.place_doubt());
+    } else {
         let (elevation_m, note) = elevation(&as_written, read)?;
         place.elevation_m = elevation_m.unwrap_or(place.elevation_m);
         notes.extend(note);
     }
     let track = study::track(&place, &written, asked)?;
+    let notes = notes.into_iter().map(|note| written.worded(note)).collect();
     Ok(LoadedSun { place, track, notes })
 }
 
@@ -121,6 +124,7 @@ pub fn load_mesh(path: &Path, asked: &Overrides) -> Result<LoadedMesh, SiteError
     let mut notes = models.notes_without_contents(&written, &casts);
     models.proposed_place().iter().for_each(|place| written.site.place.get_or_insert_default().complete_with(place));
     notes.splice(..0, written.place_note());
+    let notes = notes.into_iter().map(|note| written.worded(note)).collect();
     let (references, contents) = (models.references().to_vec(), models.contents(&written));
     let frame = if is_bare && !models.stand_on_earth() { CoordinateFrame::Model } else { CoordinateFrame::Place };
     Ok(LoadedMesh { mesh: models.mesh, frame, notes, models: contents, references })
@@ -198,7 +202,8 @@ impl Site {
         let side = camera::side(written, asked)?;
         let camera = camera::camera(written, side, bounds, shadows(VIEW_CUT), ground.level, &track)?;
         let eye = written.site.camera.eye.map(DVec3::from_array);
-        let notes = notes.into_iter().chain(track.notes()).chain(notes::on_view(&mesh, &grid, eye)).collect();
+        let notes = notes.into_iter().chain(track.notes()).chain(notes::on_view(&mesh, &grid, eye));
+        let notes = notes.map(|note| written.worded(note)).collect();
         Ok(Site {
             place,
             mesh,

@@ -38,7 +38,7 @@ impl WrittenSite {
     /// The error that nothing gives a place. It says what files gave that is not a place.
     fn no_place(&self, said: &[Message]) -> SiteError {
         if self.is_bare_model() {
-            let said = said.first().cloned().map(Box::new);
+            let said = said.first().map(|said| Box::new(said.clone().of_bare_model()));
             return SiteError::NoPlaceForModel { path: self.file.clone(), said };
         }
         self.no_point("latitude = 48.8583 and longitude = 2.2945")

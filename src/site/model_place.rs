@@ -13,7 +13,7 @@ use super::stand::{ONE_MERIDIAN_RAD, StandingModel};
 use super::written::WrittenSite;
 use crate::crs::{Crs, CrsKind, GeodeticPoint, LocalFrame};
 use crate::formats::{Anchor, AnchorPoint, Coordinates, Model, ModelError, Up};
-use crate::message::{Field, Message, Piece, message, pieces, set_to, setting};
+use crate::message::{Field, Message, Piece, message, pieces, place_setting, set_to, setting};
 use glam::DVec3;
 use std::path::Path;
 
@@ -213,10 +213,10 @@ fn written_frame<'a>(
 
 /// A note that a model's file gave the place's elevation, with the model as the subject.
 pub(super) fn elevation_note(height_m: f64) -> Message {
-    let key = set_to("[place]", "elevation", height_m.to_string(), "`elevation`".to_owned());
+    let key = set_to("[place]", "elevation", height_m.to_string(), "`elevation` in [place]".to_owned());
     message![
         format!("gives the elevation of the place, {}, since the site has none", metres(height_m));
-        key, " in [place] changes it"
+        key, " changes it"
     ]
 }
 
@@ -241,9 +241,16 @@ pub(super) fn frame<'a>(
     let sure = proposed.iter().find(is_sure).or(proposed.first());
     let Some((ProposedPoint { at, has_elevation }, name, said)) = sure else { return Ok(ModelsFrame::default()) };
     // if the first has no elevation, another file may have one
-    let with_elevation =
-        || proposed.iter().find(|(point, ..)| point.has_elevation).map(|(point, ..)| point.at.height_m);
-    let of_files = || has_elevation.then_some(at.height_m).or_else(with_elevation);
+    let around = LocalFrame::around(*at);
+    let is_near = |point: &ProposedPoint| {
+        let there = around.as_ref().and_then(|around| around.point(point.at));
+        there.is_some_and(|there| there.truncate().length() <= FAR_M)
+    };
+    let other = proposed.iter().find(|(point, ..)| point.has_elevation && is_near(point));
+    let other = other.filter(|_| !has_elevation && table.elevation.is_none()).map(|(point, name, said)| {
+        ElevationSource { said: format!("{name}, {}", said.said_by), elevation: point.at.height_m }
+    });
+    let of_files = || has_elevation.then_some(at.height_m).or(other.as_ref().map(|other| other.elevation));
     let elevation = table.elevation.or_else(of_files);
     let height_m = elevation.unwrap_or_default();
     let table = PlaceTable {
@@ -254,6 +261,7 @@ pub(super) fn frame<'a>(
             said: format!("{name}, {}", said.said_by),
             at: [at.latitude_deg, at.longitude_deg],
         }),
+        elevation_source: other,
         ..table
     };
     let point = if matches!(said.reference, Reference::Map { .. }) { "middle" } else { "zero" };
@@ -273,6 +281,11 @@ impl WrittenSite {
         self.text.is_empty() && !self.site.model.is_empty()
     }
 
+    /// A note, which names no keys of a site file where there is none.
+    pub(super) fn worded(&self, note: Message) -> Message {
+        if self.is_bare_model() { note.of_bare_model() } else { note }
+    }
+
     /// A note that its place comes from a file, unless it was changed since.
     pub(super) fn place_note(&self) -> Option<Message> {
         let table = self.site.place.as_ref()?;
@@ -282,14 +295,29 @@ impl WrittenSite {
             longitude_deg: table.longitude?,
             height_m: table.elevation.unwrap_or_default(),
         };
-        let height = table.elevation.map(|height| format!(", {} above the sea", metres(height))).unwrap_or_default();
+        let by = table.elevation_said_by().map(|by| format!(", as {by} says")).unwrap_or_default();
+        let height =
+            table.elevation.map(|height| format!(", {} above the sea{by}", metres(height))).unwrap_or_default();
+        let what = format!("place from {said}: {}{height}", degrees(at));
+        if self.is_bare_model() {
+            return Some(message![what; "change it with ", place_setting("latitude and longitude in [place]")]);
+        }
         Some(message![
-            format!("place from {said}: {}{height}", degrees(at));
+            what;
             setting("[place]", "latitude", "latitude"), ", ",
             setting("[place]", "longitude", "longitude"), " and ",
             setting("[place]", "elevation", "elevation in [place]"), " change it",
             Piece::Where(Field::Place, pieces![", or ", (Field::Place, "LAT,LON")])
         ])
+    }
+
+    /// That a place that a file says may be one that nobody has set.
+    pub(super) fn place_doubt(&self) -> Option<Message> {
+        let source = self.site.place.as_ref()?.source.as_ref()?;
+        let (name, said_by) = source.said.rsplit_once(", ")?;
+        let [latitude_deg, longitude_deg] = source.at;
+        let doubt = place_doubts::of(Some(GeodeticPoint { latitude_deg, longitude_deg, height_m: 0.0 }), said_by)?;
+        Some(doubt.about(name))
     }
 
     /// The error for a model that cannot stand where it is said to stand.
@@ -298,6 +326,7 @@ impl WrittenSite {
             StandFault::Key(key, message) if !self.is_bare_model() => refuse(self.model_key(index, key), message),
             // without a site file there is no key, so the model is at fault
             StandFault::Key(_, message) | StandFault::File(message) => {
+                let message = self.worded(message);
                 let path = self.site.model.get(index).and_then(|table| table.path.as_deref()).unwrap_or_default();
                 ModelError { file: self.folder.join(path), fault: message.into() }.into()
             }

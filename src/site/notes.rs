@@ -2,7 +2,7 @@
 
 use super::likeness::{self, Mend};
 use crate::mesh::{Component, CornerPrecision, Mesh};
-use crate::message::{Message, Piece, kilometres, message, set_to, setting};
+use crate::message::{Message, Piece, kilometres, message, place_setting, set_to, setting};
 use crate::view::{Grid, Probe};
 use glam::{DVec2, DVec3};
 use std::ops::Range;
@@ -34,7 +34,7 @@ pub(super) fn of_all(mesh: &Mesh, from: FarFrom) -> Option<Message> {
         match from {
             FarFrom::PlaceOnEarth => message![
                 from_place();
-                "the sun is that of the place: write the latitude and longitude that are meant in [place]"
+                "the sun is that of the place: write ", place_setting("the latitude and longitude that are meant in [place]")
             ],
             FarFrom::Place => message![
                 from_place();

@@ -44,10 +44,12 @@ pub(super) fn settle(models: &mut [StandingModel]) {
 /// A note that some parts of a model have no height of the ground; it counts those on the terrain and those beyond it.
 fn told([settled, beyond]: [usize; 2], count: usize, has_terrain: bool) -> Message {
     let without = settled + beyond;
+    let stand = |count: usize| if count == 1 { "stands" } else { "stand" };
     if !has_terrain {
         return message![format!(
-            "says no height of the ground of {without} of its {count} parts, which stand at the place's elevation, beside \
-             others that are above the sea"
+            "says no height of the ground of {without} of its {count} parts, which {} at the place's elevation, beside \
+             others that are above the sea",
+            stand(without)
         )];
     }
     let (of, whose) = match without == count {
@@ -56,9 +58,10 @@ fn told([settled, beyond]: [usize; 2], count: usize, has_terrain: bool) -> Messa
     };
     let beyond = match beyond {
         0 => String::new(),
+        1 => ", and 1, which lies beyond it, at the place's elevation".to_owned(),
         beyond => format!(", and {beyond}, which lie beyond it, at the place's elevation"),
     };
-    message![format!("says no height of the ground{of}: {settled}{whose} stand on the terrain{beyond}")]
+    message![format!("says no height of the ground{of}: {settled}{whose} {} on the terrain{beyond}", stand(settled))]
 }
 
 /// The terrain's triangles, sorted into the cells of a raster that they touch.

@@ -3,7 +3,7 @@
 use super::anchored_zero::{AnchoredZero, true_north};
 use crate::crs::{Crs, GeodeticPoint, LocalFrame};
 use crate::formats::{Anchor, AnchorPoint};
-use crate::message::{Message, message, setting};
+use crate::message::{Message, message, place_setting, setting};
 use glam::DVec3;
 
 /// Places closer than this are the same, metres horizontally and in height.
@@ -36,9 +36,7 @@ pub(super) fn of(at: Option<GeodeticPoint>, said_by: &str) -> Option<Message> {
     Some(message![
         what;
         "if it stands elsewhere, write so: ",
-        setting("[place]", "latitude", "latitude"),
-        " and ",
-        setting("[place]", "longitude", "longitude in [place]"),
+        place_setting("latitude and longitude in [place]"),
         ", and ",
         setting("[[model]]", "position", "`position` under [[model]]")
     ])
@@ -62,8 +60,8 @@ pub(super) fn outside(crs: &Crs, at: DVec3, said_by: Option<&str>) -> Option<Mes
     let what = format!("stands{by} at {:.0}, {:.0} in {}{there}: far outside of that map", at.x, at.y, crs.name());
     Some(message![
         what;
-        "easting and northing may be exchanged or in a different unit, or the map may be wrong: correct the file, or write `crs` \
-         or `position` under [[model]]"
+        "easting and northing may be exchanged or in a different unit, or the map may be wrong: correct the file, or write ",
+        setting("[[model]]", "crs", "`crs`"), " or ", setting("[[model]]", "position", "`position` under [[model]]")
     ])
 }
 
@@ -132,7 +130,7 @@ pub(super) fn turned_apart(used: &str, one: &AnchoredZero, other: &Anchor) -> Op
             other.said_by,
             angle(turned)
         );
-        message![what; "`north` under [[model]] overrides both"]
+        message![what; setting("[[model]]", "north", "`north` under [[model]]"), " overrides both"]
     })
 }
 

@@ -70,7 +70,7 @@ pub fn load_model(path: &Path, asked: &Overrides) -> Result<PlacedModel, SiteErr
             (placement.place(model), zero)
         }
     };
-    let notes = notes.into_iter().map(|note| note.about(&name)).collect();
+    let notes = notes.into_iter().map(|note| note.of_bare_model().about(&name)).collect();
     let names: Vec<_> = model.parts.iter().map(|part| (part.name.as_str(), part.aliases.as_slice())).collect();
     let contents = ReadContents::of(&model).told(&name, &names);
     Ok(PlacedModel { contents, name, zero, scale_m, unit_is_said, up_is_said, notes, model })

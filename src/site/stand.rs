@@ -7,7 +7,7 @@ use super::place_doubts::{ONE_PLACE_M, angle, degrees, length, norths_apart};
 use super::placement::Placement;
 use crate::crs::{Crs, CrsKind, GeodeticPoint, LocalFrame, MapToLocal, TOO_FAR_M};
 use crate::formats::{Model, PartKind, Up};
-use crate::message::{Message, message, set_to, setting};
+use crate::message::{Message, message, place_setting, set_to, setting};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 
@@ -186,7 +186,7 @@ fn out_of_reach(part: &str, crs: &Crs, at: DVec3, frame: &SiteFrame) -> Message 
     message![
         what;
         "if that is not where it stands, write its map as ", crs_key(), "; if it is, correct ",
-        setting("[place]", "latitude", "latitude"), " and ", setting("[place]", "longitude", "longitude in [place]")
+        place_setting("latitude and longitude in [place]")
     ]
 }
 
@@ -224,7 +224,13 @@ fn anchored(
         let what = format!("by its {said_by} it stands at {}, {} from the place", degrees(at), length(away));
         return Err(StandFault::Key(
             "position",
-            message![what; "write position = [0.0, 0.0, 0.0] to put its zero at the place, or correct [place]"],
+            message![
+                what;
+                "write ",
+                set_to("[[model]]", "position", "[0.0, 0.0, 0.0]".to_owned(), "`position = [0.0, 0.0, 0.0]` under [[model]]".to_owned()),
+                " to put its zero at the place, or correct ",
+                place_setting("latitude and longitude in [place]")
+            ],
         ));
     };
     // a building that is moved keeps its true north, not the north at its anchor
@@ -335,7 +341,7 @@ fn no_elevation(above_m: f64, placement: &Placement, frame: &SiteFrame) -> Optio
     (!is_written && above_m.abs() > ONE_PLACE_M).then(|| {
         let side = if above_m > 0.0 { "above" } else { "below" };
         format!(
-            "it lies {} {side} the place, as [place] has no elevation; `elevation = {:.0}` there would put it at 0",
+            "it lies {} {side} the place, whose elevation nobody has: an elevation of {:.0} m would put it at 0",
             length(above_m.abs()),
             frame.local.elevation_m() + above_m
         )

@@ -8,7 +8,7 @@ use super::ground::metres;
 use super::terrain::FIRST;
 use crate::mesh::Mesh;
 use crate::mesh::scan::{by_rows, spans, wholes};
-use crate::message::{Message, message};
+use crate::message::{Message, Piece, message, setting};
 use glam::{DVec2, DVec3, Vec3Swizzles as _};
 
 /// The most cells along the longer side of a model's plan.
@@ -73,13 +73,17 @@ pub(super) fn note(mesh: &Mesh, terrain: &TerrainFaces, components: &[usize], mo
         count => format!("{model} has {count} buildings: {}", told.join("; ")),
     };
     Some(match (floating > 0, buried > 0) {
-        (true, _) => message![what; "light falls under what floats: `position` under [[model]] moves a model"],
+        (true, _) => message![what; "light falls under what floats: ", position(), " moves a model"],
         (false, true) => message![
             what;
-            "unless these are cellars, its heights are measured from elsewhere: `position` under [[model]] moves a model"
+            "unless these are cellars, its heights are measured from elsewhere: ", position(), " moves a model"
         ],
         (false, false) => message![what],
     })
+}
+
+fn position() -> Piece {
+    setting("[[model]]", "position", "`position` under [[model]]")
 }
 
 /// How one building stands, metres.

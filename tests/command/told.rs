@@ -1,6 +1,7 @@
 //! What is said of model files that cannot be opened, and of how those stand that can.
 
 use crate::shared::program::{done, fails, site};
+use base64::Engine as _;
 use gnomon::cli::Options;
 use gnomon::export::check::{CheckedMesh, TableExtent, table};
 use gnomon::formats::{Anchor, AnchorPoint, Up};
@@ -91,4 +92,80 @@ fn a_text_of_facets_without_its_end_is_told() {
     std::fs::write(folder.path().join("m.stl"), format!("solid m\n{facet}")).unwrap();
     let told = done(folder.path(), "check m.stl");
     assert!(told.contains("note: m.stl ends without `endsolid`, so it may be cut off"), "{told}");
+}
+
+/// A model without a site file has no keys: what an option says is said with it, and a key is said to be one of a site file.
+#[test]
+fn hints_for_a_model_alone_name_options() {
+    let folder = site();
+    let town = r#"{"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {"height": 12, "name": "hall"},
+        "geometry": {"type": "Polygon", "coordinates": [[[16.3, 48.2], [16.301, 48.2], [16.301, 48.201], [16.3, 48.2]]]}}]}"#;
+    std::fs::write(folder.path().join("town.geojson"), town).unwrap();
+    let notes = |command: &str| {
+        let output = crate::shared::program::gnomon(folder.path(), command);
+        format!("{}{}", crate::shared::program::stderr(&output), String::from_utf8_lossy(&output.stdout))
+    };
+    for command in ["sun town.geojson --at 2026-06-21T12:00", "check town.geojson"] {
+        let told = notes(command);
+        let note = "place from town.geojson, ";
+        assert!(told.contains(note) && told.contains("change it with --place LAT,LON"), "{told}");
+        assert!(!told.contains("in [place]"), "{told}");
+        assert!(told.matches("[[model]]").count() == told.matches("under [[model]] in a site file").count(), "{told}");
+    }
+    let json = done(folder.path(), "sun town.geojson --at 2026-06-21T12:00 --json");
+    assert!(json.contains("place from town.geojson, ") && json.contains("change it with --place LAT,LON"), "{json}");
+    // a site file has the keys
+    std::fs::write(folder.path().join("town.toml"), "[[model]]\npath = \"town.geojson\"\n").unwrap();
+    let told = notes("check town.toml");
+    assert!(told.contains("latitude, longitude and elevation in [place] change it"), "{told}");
+    assert!(told.contains("`crs` under [[model]] changes it") && !told.contains("in a site file"), "{told}");
+}
+
+/// What `gnomon sun` takes from models is said, whether it is asked as a table or as JSON.
+#[test]
+fn the_sun_says_what_it_takes_from_models() {
+    let folder = site();
+    let write = |name: &str, place: &str| {
+        let corners = base64::engine::general_purpose::STANDARD
+            .encode([0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].map(f32::to_le_bytes).as_flattened());
+        let text = format!(
+            r#"{{"asset":{{"version":"2.0"}},"scenes":[{{"nodes":[0],"extras":{{"gnomon":{{{place}}}}}}}],"nodes":[{{"mesh":0}}],
+            "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],
+            "buffers":[{{"uri":"data:;base64,{corners}","byteLength":36}}],"bufferViews":[{{"buffer":0,"byteLength":36}}],
+            "accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}}]}}"#
+        );
+        std::fs::write(folder.path().join(name), text).unwrap();
+    };
+    write("low.gltf", r#""latitude":42.3584,"longitude":-71.0598"#);
+    write("high.gltf", r#""latitude":42.36,"longitude":-71.06,"elevation":35.0"#);
+    std::fs::write(
+        folder.path().join("both.toml"),
+        "[[model]]\npath = \"low.gltf\"\n[[model]]\npath = \"high.gltf\"\n",
+    )
+    .unwrap();
+    std::fs::write(folder.path().join("one.toml"), "[[model]]\npath = \"low.gltf\"\n").unwrap();
+    let written = "[place]\nlatitude = 42.36\nlongitude = -71.06\n[[model]]\npath = \"high.gltf\"\n";
+    std::fs::write(folder.path().join("written.toml"), written).unwrap();
+    for (site, words) in [
+        (
+            "one.toml",
+            &["place from low.gltf, gnomon: 42.3584 N 71.0598 W;", "low.gltf says by its gnomon", "Boston"][..],
+        ),
+        // a place that may be a program's own gives way to another
+        ("both.toml", &["place from high.gltf, gnomon: 42.36 N 71.06 W, 35.00 m above the sea;"]),
+        ("written.toml", &["high.gltf says the elevation of the place, 35.00 m"]),
+    ] {
+        let asked = format!("sun {site} --at 2026-06-21T12:00");
+        let told = crate::shared::program::stderr(&crate::shared::program::gnomon(folder.path(), &asked));
+        let json = done(folder.path(), &format!("{asked} --json"));
+        assert!(words.iter().all(|word| told.contains(word) && json.contains(word)), "{told}{json}");
+    }
+    write("low.gltf", r#""latitude":42.35,"longitude":-71.06"#);
+    let told = done(folder.path(), "sun both.toml --at 2026-06-21T12:00 --json");
+    let words = "place from low.gltf, gnomon: 42.35 N 71.06 W, 35.00 m above the sea, as high.gltf, gnomon says";
+    assert!(told.contains(words) && !told.contains("Boston"), "{told}");
+    // and not one of another town
+    write("low.gltf", r#""latitude":42.0,"longitude":-71.0"#);
+    let told = done(folder.path(), "sun both.toml --at 2026-06-21T12:00 --json");
+    assert!(told.contains("42 N 71 W;") && !told.contains("above the sea"), "{told}");
 }

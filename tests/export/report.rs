@@ -99,7 +99,7 @@ fn profile_json_is_the_contract() {
 #[test]
 fn sun_json_has_the_same_parts() {
     let town = Town::new(1.0, 32_400, 61_200, 3600);
-    let text = report::sun_json(&town.place, &town.track).unwrap();
+    let text = report::sun_json(&town.place, &town.track, &[], &PlainWords).unwrap();
     assert_eq!(keys(&text, 2), ["place", "tz_version", "instants", "days", "notes"]);
 }
 

@@ -180,3 +180,15 @@ fn cache_that_cannot_be_written_is_an_error() {
     let entry = cache.entry(format_of(&file), &file, &ReadOptions::default()).unwrap();
     assert!(entry.read().is_none() && entry.keep(&full()).is_err());
 }
+
+/// What leads out of the model's folder is not read, and so no input that a cache would look at.
+#[test]
+fn gltf_names_only_what_lies_beside_it() {
+    let folder = site();
+    let file = folder.path().join("named.gltf");
+    let uris = ["a.bin", "data/b%20c.png", "../out.png", "data/../../out.bin", "/etc/hosts", "C:/x.png", "data:,x"];
+    let images: Vec<_> = uris.iter().map(|uri| serde_json::json!({"uri": uri})).collect();
+    fs::write(&file, serde_json::json!({"asset": {"version": "2.0"}, "images": images}).to_string()).unwrap();
+    let named = format_of(&file).named_by(&file);
+    assert_eq!(named, [folder.path().join("a.bin"), folder.path().join("data/b c.png")]);
+}

@@ -356,6 +356,35 @@ fn landxml_is_northing_easting_and_height() {
     assert!(refused("</Pnts>", "</Points>").contains("damaged at byte"));
 }
 
+/// `terrain_error` is metres, also where `scale` says that the file's unit is another one than it says.
+#[test]
+fn the_error_is_in_metres_whatever_a_unit_is() {
+    let part = |scale: Option<f64>, terrain_error_m: f64| {
+        let options = ReadOptions { scale, terrain_error_m, ..ReadOptions::default() };
+        read("hills.asc", ascii_grid(&head()), &options).unwrap()
+    };
+    let corners = |model: &Model| model.parts[0].positions.len();
+    let [plain, coarse] = [part(None, 0.1), part(None, 1.0)];
+    assert!(corners(&coarse) < corners(&plain));
+    // of heights in units of ten metres a metre is a tenth of a unit
+    let scaled = part(Some(10.0), 1.0);
+    assert_eq!(scaled.parts[0].positions, plain.parts[0].positions);
+    assert!(notes(&scaled).contains("that lie within 1 m of them"), "{}", notes(&scaled));
+}
+
+#[test]
+fn the_samples_are_as_far_apart_as_their_map_says() {
+    let told = |prj: &str| {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("hills.asc"), ascii_grid(&head())).unwrap();
+        std::fs::write(folder.path().join("hills.prj"), prj).unwrap();
+        notes(&formats::read(&folder.path().join("hills.asc"), &ReadOptions::default()).unwrap())
+    };
+    for (prj, unit) in [("EPSG:25832", "m"), ("EPSG:2263", "ft"), ("EPSG:4326", "degrees"), ("", "units")] {
+        assert!(told(prj).contains(&format!("heights 2 {unit} apart")), "{prj}: {}", told(prj));
+    }
+}
+
 /// A GeoTIFF of some kilobytes that says hundred million heights.
 #[test]
 fn rasters_beyond_the_file_are_refused() {

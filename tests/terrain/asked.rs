@@ -173,8 +173,8 @@ fn each_part_says_for_itself_what_its_heights_count_from() {
     };
     let without_terrain = HEAD.split("[[model]]").next().unwrap();
     for (head, wanted, note) in [
-        (HEAD, [2.0, -3.0], "houses.glb says no height of the ground of 1 of its 2 parts: 1 stand on the terrain"),
-        (without_terrain, [0.0, -3.0], "houses.glb says no height of the ground of 1 of its 2 parts, which stand at"),
+        (HEAD, [2.0, -3.0], "houses.glb says no height of the ground of 1 of its 2 parts: 1 stands on the terrain"),
+        (without_terrain, [0.0, -3.0], "houses.glb says no height of the ground of 1 of its 2 parts, which stands at"),
     ] {
         let folder = folder(&format!("{head}[[model]]\npath = \"houses.glb\"\n"));
         for name in ["terrain.tif", "houses.glb"] {

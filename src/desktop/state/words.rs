@@ -39,6 +39,7 @@ impl Words for PanelWords {
     fn setting(&self, table: &str, key: &str, value: Option<&str>, written: &str) -> String {
         match (table, key, value) {
             ("[ground]", "level", _) => "\"Ground\" under Place".to_owned(),
+            ("[place]", "", _) => "\"Latitude\" and \"Longitude\" under Place".to_owned(),
             ("[place]", "latitude", _) => "\"Latitude\"".to_owned(),
             ("[place]", "longitude", _) => "\"Longitude\"".to_owned(),
             ("[place]", "elevation", _) => "\"Elevation\" under Place".to_owned(),
@@ -48,7 +49,8 @@ impl Words for PanelWords {
             ("[[model]]", "scale", None) => "\"scale\" under Place".to_owned(),
             ("[[model]]", "scale", Some(value)) => format!("{value} for \"scale\" under Place"),
             ("[[model]]", "receives", _) => "\"receives\" under Components".to_owned(),
-            ("[[model]]", "casts", _) => "\"casts\" switched off under Components".to_owned(),
+            ("[[model]]", "casts", None) => "\"casts\" under Components".to_owned(),
+            ("[[model]]", "casts", Some(_)) => "\"casts\" switched off under Components".to_owned(),
             _ => written.to_owned(),
         }
     }

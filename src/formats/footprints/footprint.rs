@@ -14,6 +14,30 @@ pub(super) struct RingPolygon {
     pub ends: Vec<usize>,
 }
 
+impl RingPolygon {
+    /// Whether a side of it is longer than half the way around the Earth, in degrees: then it goes the other way.
+    pub(super) fn crosses_180(&self) -> bool {
+        let mut start = 0;
+        self.ends.iter().any(|&end| {
+            let ring = self.points.get(start..end).unwrap_or_default();
+            start = end;
+            let next = ring.iter().cycle().skip(1);
+            ring.iter().zip(next).any(|(one, other)| (one.x - other.x).abs() > 180.0)
+        })
+    }
+
+    /// The same with longitudes of 0 to 360°, where that does not cut it at 0°.
+    pub(super) fn eastward(mut self) -> RingPolygon {
+        let east = |point: &DVec3| if point.x < 0.0 { point.with_x(point.x + 360.0) } else { *point };
+        let of_east =
+            RingPolygon { points: self.points.iter().map(east).collect(), ends: std::mem::take(&mut self.ends) };
+        if !of_east.crosses_180() {
+            return of_east;
+        }
+        RingPolygon { points: self.points, ends: of_east.ends }
+    }
+}
+
 /// A feature: a building, a part of one, or something else.
 pub(super) struct Footprint {
     pub polygons: Vec<RingPolygon>,

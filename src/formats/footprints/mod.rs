@@ -8,6 +8,7 @@
 use super::face_cutter::FaceCutter;
 use super::left_out::{LeftOutTally, counted, listed};
 use super::{Coordinates, MAX_TRIANGLES, Model, ModelFault, Up};
+use crate::crs::{Crs, CrsKind};
 use crate::mesh::Part;
 use crate::message::{Field, Message, Piece, few, message, setting};
 use extrude::FootprintOutline;
@@ -27,6 +28,20 @@ mod geojson;
 mod overlap;
 mod shapefile;
 mod tags;
+
+/// Features in degrees, of which a ring lies on both sides of 180°, in degrees that go on there: all of them, so that parts
+/// still lie in their outlines.
+fn together(mut features: Vec<Footprint>, coordinates: &Coordinates) -> Vec<Footprint> {
+    let Coordinates::Map(crs) = coordinates else { return features };
+    let mut polygons = features.iter().flat_map(|feature| &feature.polygons);
+    let is_cut = polygons.any(RingPolygon::crosses_180);
+    if is_cut && Crs::read(crs).is_ok_and(|crs| crs.kind() == CrsKind::Geographic) {
+        for polygon in features.iter_mut().flat_map(|feature| &mut feature.polygons) {
+            *polygon = std::mem::take(polygon).eastward();
+        }
+    }
+    features
+}
 
 /// The features of a file.
 #[derive(Default)]
@@ -67,7 +82,7 @@ impl Footprints {
 
     /// Makes blocks of the buildings. Heights are metres with z up; in plan `coordinates` applies.
     fn finish(mut self, coordinates: Coordinates, default_height_m: Option<f64>) -> Result<Model, ModelFault> {
-        let features = std::mem::take(&mut self.features);
+        let features = together(std::mem::take(&mut self.features), &coordinates);
         let buildings = self.buildings(features);
         let mut cutter = FaceCutter::new();
         let mut outlines = self.outlines(buildings, &mut cutter, default_height_m)?;

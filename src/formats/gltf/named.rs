@@ -2,7 +2,7 @@
 
 use super::buffers::{has_scheme, percent_decode};
 use super::container;
-use crate::formats::on_disk;
+use crate::formats::source::beside;
 use serde::Deserialize;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -22,7 +22,6 @@ pub(crate) fn named_by(model: &Path) -> Vec<PathBuf> {
     else {
         return Vec::new();
     };
-    let folder = model.parent().unwrap_or(Path::new(""));
     let each = [naming.buffers, naming.images].into_iter().filter_map(|list| match list {
         Value::Array(list) => Some(list),
         _ => None,
@@ -30,5 +29,6 @@ pub(crate) fn named_by(model: &Path) -> Vec<PathBuf> {
     let address =
         |one: &Value| one.get("uri").and_then(Value::as_str).filter(|uri| !has_scheme(uri)).map(str::to_owned);
     let addresses = each.flatten().filter_map(|one| address(&one));
-    addresses.filter_map(|uri| percent_decode(&uri)).map(|relative| on_disk(&folder.join(relative))).collect()
+    // what leads out of the folder is not read, so it is no input
+    addresses.filter_map(|uri| beside(model, &percent_decode(&uri)?)).collect()
 }

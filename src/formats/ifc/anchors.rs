@@ -7,7 +7,7 @@
 
 use super::super::{Anchor, AnchorPoint};
 use super::scan::IfcScan;
-use crate::message::{Message, message};
+use crate::message::{Message, message, setting};
 use ifc_lite_core::{
     CoordinateOperationKind, EntityDecoder, GeoRefExtractor, GeoRefSource, GeoReference, GeoReferenceDetails, IfcType,
 };
@@ -104,7 +104,7 @@ impl IfcPlaces {
             if axis.is_some_and(|(x, y)| x.hypot(y) < 1e-9) {
                 self.notes.push(message![
                     "says by its IfcMapConversion an XAxis of (0, 0), which is not a direction: it is taken as not turned against its map";
-                    "`north` under [[model]] turns it"
+                    setting("[[model]]", "north", "`north` under [[model]]"), " turns it"
                 ]);
                 return;
             }
@@ -127,7 +127,7 @@ impl IfcPlaces {
                  map's origin, so it is taken in metres",
                 map.eastings, map.northings
             );
-            "`position` under [[model]] overrides it"
+            setting("[[model]]", "position", "`position` under [[model]]"), " overrides it"
         ]);
         1.0
     }
@@ -196,7 +196,7 @@ impl IfcPlaces {
             self.notes.push(message![
                 format!("has its IfcSite {:.0} km from its own zero, so its coordinates are those of a map that it does \
                          not name", x.hypot(y) / 1000.0);
-                "say which one with crs"
+                "say which one with ", setting("[[model]]", "crs", "`crs` under [[model]]")
             ]);
             return;
         }

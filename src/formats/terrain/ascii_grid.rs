@@ -38,7 +38,7 @@ impl Format for AsciiGrid {
         let map = TerrainMap::of(beside(path)?, None, None, &mut notes);
         no_data::remove(&mut grid.heights, no_data, map.height_unit_m, &mut notes);
         grid.heights.iter_mut().for_each(|height| *height *= map.height_unit_m as f32);
-        let mut model = model_of(&grid, options.terrain_error_m, &stem(path), map)?;
+        let mut model = model_of(&grid, options, &stem(path), map)?;
         model.notes.extend(notes);
         Ok(model)
     }

@@ -79,7 +79,7 @@ impl Format for GeoTiff {
         let metres = |number: f32| ((f64::from(number) * factor + addend) * map.height_unit_m) as f32;
         heights.iter_mut().for_each(|height| *height = metres(*height));
         let grid = HeightGrid { columns: columns as usize, rows: rows as usize, heights, first, steps };
-        let mut model = model_of(&grid, options.terrain_error_m, &stem(path), map)?;
+        let mut model = model_of(&grid, options, &stem(path), map)?;
         model.notes.extend(notes);
         model.left_out.extend(raster_tags::further_bands(&mut tiff));
         Ok(model)

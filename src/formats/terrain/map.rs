@@ -1,6 +1,7 @@
 //! The map of a terrain, and the units of its heights and its plan.
 
 use crate::crs::{Crs, CrsKind};
+use crate::formats::ReadOptions;
 use crate::message::{Message, message};
 
 /// The ratio by which two units must differ to be distinct; it separates the metre and the two feet.
@@ -16,6 +17,8 @@ pub(super) struct TerrainMap {
     /// The length of the model's unit, metres: with a map that of heights, otherwise that of all three coordinates, if
     /// known.
     pub unit_m: Option<f64>,
+    /// The unit of eastings and northings, for a message.
+    pub plan_unit: &'static str,
 }
 
 impl TerrainMap {
@@ -30,13 +33,27 @@ impl TerrainMap {
     ) -> TerrainMap {
         let known = crs.as_deref().and_then(|text| Crs::read(text).ok());
         let of_system = known.as_ref().and_then(Crs::height_unit_m);
+        let is_in_degrees = known.as_ref().is_some_and(|crs| crs.kind() == CrsKind::Geographic);
         let plan_m = known.filter(|crs| crs.kind() == CrsKind::Projected).map(|crs| crs.unit_m()).or(plan_unit_m);
         let height_unit_m = said_m.or(of_system).unwrap_or_else(|| {
             notes.push(unsaid(crs.is_some(), plan_m));
             plan_m.unwrap_or(1.0)
         });
         let unit_m = if crs.is_some() { Some(height_unit_m) } else { plan_unit_m };
-        TerrainMap { crs, height_unit_m, unit_m }
+        let plan_unit = match plan_m {
+            _ if is_in_degrees => "degrees",
+            Some(plan_m) if is_near(plan_m, 1.0) => "m",
+            Some(plan_m) if is_near(plan_m, FOOT_M) => "ft",
+            None if crs.is_none() => "units",
+            _ => "units of its map",
+        };
+        TerrainMap { crs, height_unit_m, unit_m, plan_unit }
+    }
+
+    /// How far a thinned sheet may lie from its heights while these are metres by the file's own unit: `scale` makes them
+    /// longer or shorter afterwards.
+    pub(super) fn error_m(&self, options: &ReadOptions) -> f64 {
+        options.terrain_error_m / options.scale.map_or(1.0, |scale| scale * self.of_a_metre())
     }
 
     /// The model's units in a metre of height.
@@ -45,9 +62,12 @@ impl TerrainMap {
     }
 }
 
+fn is_near(plan_m: f64, unit_m: f64) -> bool {
+    (plan_m / unit_m - 1.0).abs() < ONE_UNIT
+}
+
 /// A note that the unit of heights is an assumption.
 fn unsaid(is_of_map: bool, plan_m: Option<f64>) -> Message {
-    let is_near = |plan_m: f64, unit_m: f64| (plan_m / unit_m - 1.0).abs() < ONE_UNIT;
     let taken = match plan_m {
         Some(plan_m) if is_near(plan_m, FOOT_M) => "feet, as its coordinates are".to_owned(),
         Some(plan_m) if !is_near(plan_m, 1.0) => format!("units of {plan_m} m, as its coordinates are"),

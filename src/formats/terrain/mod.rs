@@ -23,15 +23,15 @@ pub use landxml::LandXml;
 pub use points::{LasPoints, POINT_CLASSES};
 
 use super::left_out::counted;
-use super::{Coordinates, Model, ModelFault, PartKind, Up};
+use super::{Coordinates, Model, ModelFault, PartKind, ReadOptions, Up};
 use crate::mesh::Part;
-use crate::message::{Message, message};
+use crate::message::{Message, message, setting};
 use glam::DVec3;
 use grid::HeightGrid;
 use map::TerrainMap;
 
 /// The model of a raster of heights: one thinned part called `name`.
-fn model_of(grid: &HeightGrid, error_m: f64, name: &str, map: TerrainMap) -> Result<Model, ModelFault> {
+fn model_of(grid: &HeightGrid, options: &ReadOptions, name: &str, map: TerrainMap) -> Result<Model, ModelFault> {
     let samples = grid.heights.len();
     let missing = grid.heights.iter().filter(|height| height.is_nan()).count();
     if missing == samples {
@@ -40,7 +40,7 @@ fn model_of(grid: &HeightGrid, error_m: f64, name: &str, map: TerrainMap) -> Res
             message![what; "export the part of the terrain that has heights, with the correct no-data value"].into()
         );
     }
-    let sheet = thin::sheet(grid, error_m as f32);
+    let sheet = thin::sheet(grid, map.error_m(options) as f32);
     if sheet.triangles.is_empty() {
         let what = format!("has {} heights, but no three next to each other", samples - missing);
         return Err(
@@ -50,12 +50,13 @@ fn model_of(grid: &HeightGrid, error_m: f64, name: &str, map: TerrainMap) -> Res
     let mut notes = Vec::new();
     notes.push(message![
         format!(
-            "has {} heights {}, thinned to {} triangles that lie within {error_m} m of them",
+            "has {} heights {}, thinned to {} triangles that lie within {} m of them",
             samples - missing,
-            grid.spacing(map.crs.is_some()),
+            grid.spacing(map.plan_unit),
             sheet.triangles.len(),
+            options.terrain_error_m,
         );
-        "`terrain_error` under [[model]] changes that distance"
+        setting("[[model]]", "terrain_error", "`terrain_error` under [[model]]"), " changes that distance"
     ]);
     if missing > 0 {
         let (cells, are) = (counted(missing as u64, "cell"), if missing == 1 { "is" } else { "are" });

@@ -78,7 +78,7 @@ fn model(path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
     let (ground, is_classified) = points.ground()?;
     let cells = PointCells::of(&ground, is_classified)?;
     notes.extend(cells.notes(is_classified));
-    let sheet = thin::sheet(&cells.grid, options.terrain_error_m as f32);
+    let sheet = thin::sheet(&cells.grid, map.error_m(options) as f32);
     let mut sheets: Vec<NamedSheet> =
         vec![(format!("{name}/ground"), sheet.positions, sheet.triangles, PartKind::Terrain)];
     let mut left_out = Vec::new();
@@ -93,7 +93,7 @@ fn model(path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
             continue;
         }
         if !is_asked {
-            let why = format!("`classes = [\"{class}\"]` under [[model]] lets this class stand there");
+            let why = format!("`classes = [\"{class}\"]` under [[model]] in a site file lets this class stand there");
             left_out.push(LeftOut { what: format!("points of class {class}"), count: of_class.len() as u64, why });
             continue;
         }

@@ -228,3 +228,37 @@ fn damaged_files_are_said() {
     huge[100 + 8 + 40..][..4].copy_from_slice(&u32::MAX.to_le_bytes());
     assert!(fault_of("a.shp", huge).contains("is cut off"));
 }
+
+/// A ring on both sides of the meridian of 180° is a house, and not a belt around the Earth; so is a part of it that lies on
+/// one side alone.
+#[test]
+fn a_ring_across_180_degrees_is_a_house() {
+    let ring = |west: f64, east: f64| -> Value {
+        let corners = [[west, -17.0], [east, -17.0], [east, -16.9998], [west, -16.9998], [west, -17.0]];
+        json!({"type": "Polygon", "coordinates": [corners]})
+    };
+    let feature =
+        |geometry: Value, properties: Value| json!({"type": "Feature", "properties": properties, "geometry": geometry});
+    let house = feature(ring(179.9999, -179.9999), json!({"height": 10, "building": "yes", "name": "hall"}));
+    let west = feature(ring(179.9999, 180.0), json!({"height": 10, "building:part": "yes", "name": "west"}));
+    let east = feature(ring(-180.0, -179.9999), json!({"height": 12, "building:part": "yes", "name": "east"}));
+    let elsewhere = feature(ring(-0.0001, 0.0001), json!({"height": 5, "building": "yes", "name": "greenwich"}));
+    let read = |features: &[&Value]| {
+        let text = json!({"type": "FeatureCollection", "features": features}).to_string();
+        model_of("a.geojson", text.as_bytes())
+    };
+    let width = |model: &Model, part: usize| {
+        let along = || model.parts[part].positions.iter().map(|corner| corner.x);
+        along().fold(f64::NEG_INFINITY, f64::max) - along().fold(f64::INFINITY, f64::min)
+    };
+    let model = read(&[&house, &elsewhere]);
+    assert!((width(&model, 0) - 0.0002).abs() < 1e-9 && (width(&model, 1) - 0.0002).abs() < 1e-9, "{model:?}");
+    // parts replace the outline in which they lie
+    let parts = read(&[&house, &west, &east]);
+    let names: Vec<&str> = parts.parts.iter().map(|part| part.name.as_str()).collect();
+    assert_eq!(names, ["west", "east"]);
+    // numbers of a map are no degrees
+    let mut metres = collection(&[house]);
+    metres["features"][0]["geometry"] = ring(100.0, 400.0);
+    assert_eq!(width(&model_of("b.geojson", metres.to_string().as_bytes()), 0), 300.0);
+}
