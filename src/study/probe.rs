@@ -4,6 +4,7 @@
 //! to the sun's centre meets no caster; not below the ground. The answer is that of such a ray at every second, however
 //! short the sun or the shade.
 
+use super::openness::openness;
 use super::{Event, OnEvent, StudyError, note_models, tell};
 use crate::shadow::JUDGED_ABOVE_M;
 use crate::shadow::ray_cast::RayCaster;
@@ -108,16 +109,6 @@ fn with_laid(asked: &ProbeSite) -> (Vec<Probe>, usize) {
     let doubtful = found.iter().filter(|(_, is_alike)| *is_alike).count();
     probes.extend(found.into_iter().map(|(probe, _)| probe));
     (probes, doubtful)
-}
-
-/// How far one sees from a point: metres along rays ahead, to both sides, up and down, each as far as a street is wide.
-fn openness(rays: &RayCaster, point: DVec3, normal: Option<DVec3>) -> f64 {
-    const FAR_M: f64 = 50.0;
-    let Some(normal) = normal else { return 0.0 };
-    let (across, along) = normal.any_orthonormal_pair();
-    let tilted = [across, -across, along, -along].map(|side| (normal + side).normalize());
-    let seen = |direction: DVec3| rays.first_hit(point, direction).map_or(FAR_M, |(_, away)| away.min(FAR_M));
-    tilted.into_iter().chain([normal]).map(seen).sum()
 }
 
 /// The air that bends the sun's light, where it does.

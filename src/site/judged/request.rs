@@ -2,9 +2,9 @@
 //!
 //! All points are in the world frame (metres, x east, y north, z up).
 
-use crate::site::Ground;
 use crate::mesh::Mesh;
 use crate::message::{Message, Words};
+use crate::site::Ground;
 use crate::sun::Place;
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
