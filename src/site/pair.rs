@@ -133,7 +133,7 @@ fn told_apart(places: [&str; 2], files: [&WrittenSite; 2]) -> [String; 2] {
 }
 
 /// The name of the place of `after`, or the error that it differs from the place of `before`.
-fn same_place(before: &WrittenSite, after: &WrittenSite, asked: &Overrides) -> Result<String, SiteError> {
+pub(super) fn same_place(before: &WrittenSite, after: &WrittenSite, asked: &Overrides) -> Result<String, SiteError> {
     let (here, there) = (before.place(asked)?, after.place(asked)?);
     let north = (there.latitude_deg - here.latitude_deg) * DEGREE_M;
     let turned = (there.longitude_deg - here.longitude_deg + 180.0).rem_euclid(360.0) - 180.0;

@@ -1,5 +1,6 @@
 //! Reads points from a CSV table whose first line names the columns.
 
+use super::csv_lines::{CsvLines, text_of};
 use super::error::{FieldLocation, SiteError};
 use super::overrides::refuse;
 use crate::formats::composed;
@@ -7,7 +8,6 @@ use crate::message::{Field, message};
 use crate::view::Probe;
 use glam::DVec3;
 use rustc_hash::FxHashSet;
-use std::io::Read;
 use std::path::Path;
 
 /// The largest table, bytes.
@@ -37,25 +37,13 @@ pub(super) fn unit(normal: [f64; 3], at: impl Fn() -> FieldLocation) -> Result<D
 /// A file that cannot be read, or the first line that is wrong.
 pub(super) fn read(path: &Path) -> Result<Vec<Probe>, SiteError> {
     let file = path.display().to_string();
-    let unreadable = |why: String| SiteError::Unreadable { path: file.clone(), why };
-    let mut bytes = Vec::new();
-    let opened = std::fs::File::open(path).map_err(|error| unreadable(error.to_string()))?;
-    opened.take(MOST_BYTES + 1).read_to_end(&mut bytes).map_err(|error| unreadable(error.to_string()))?;
-    if bytes.len() as u64 > MOST_BYTES {
-        return Err(unreadable(format!("a table of points has at most {} MB", MOST_BYTES >> 20)));
-    }
-    let text = String::from_utf8(bytes).map_err(|error| {
-        let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-        let line = good.iter().filter(|byte| **byte == b'\n').count() + 1;
-        SiteError::Encoding { file: file.clone(), what: format!("has a letter in line {line} that is not UTF-8") }
-    })?;
-    points(&file, text.trim_start_matches('\u{feff}'))
+    points(&file, &text_of(path)?)
 }
 
 fn points(file: &str, text: &str) -> Result<Vec<Probe>, SiteError> {
     let at =
         |line: usize| FieldLocation::Key { file: file.to_owned(), table: format!("line {line}"), key: String::new() };
-    let mut lines = TableLines { rest: text, line: 1 };
+    let mut lines = CsvLines::new(text, ',');
     let columns = match lines.next() {
         Some((_, Some(fields))) => fields.iter().map(|field| field.trim().to_ascii_lowercase()).collect(),
         _ => Vec::new(),

@@ -223,7 +223,7 @@ fn days(place: &Place, written: &WrittenSite, asked: &Overrides) -> Result<Vec<D
 }
 
 /// The requested dates: one date or a range, of the face or of the study; and where they were given.
-fn dates(written: &WrittenSite, asked: &Overrides) -> Result<(Vec<NaiveDate>, FieldLocation), SiteError> {
+pub(super) fn dates(written: &WrittenSite, asked: &Overrides) -> Result<(Vec<NaiveDate>, FieldLocation), SiteError> {
     if let Some(dates) = several(written, asked)? {
         return Ok(dates);
     }

@@ -4,6 +4,7 @@
 //! probe is not below the ground, and a ray to the sun's centre meets no caster. The result is that of such a ray at
 //! every second, however short the sun or the shade.
 
+use super::openness::openness;
 use super::{Event, OnEvent, StudyError, note_models, tell};
 use crate::shadow::JUDGED_ABOVE_M;
 use crate::shadow::ray_cast::RayCaster;
