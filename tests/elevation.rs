@@ -132,3 +132,98 @@ fn the_sheet_of_a_side_has_no_north_arrow() {
     assert!(accents(View::Plan(site.grid)) > 500);
     assert_eq!(accents(View::Elevation(side)), 0);
 }
+
+/// What a sun sees of the scene, and how much of that sun each pixel sees.
+fn seen_from_sun(viewer: DVec3, sun: DVec3) -> (Surface, Vec<u8>, Elevation) {
+    let (scene, _) = scene();
+    let box_of = (dvec3(-4.0, -3.0, 0.0), dvec3(4.0, 3.0, 10.0));
+    let side = Elevation::from_sun(viewer, box_of, [160, 100], [].into_iter());
+    let mut cast = RayCast::new(scene, View::Elevation(side), None);
+    let surface = cast.surface().unwrap();
+    let mask = cast.draw(sun).unwrap().read().unwrap();
+    (surface, mask.share, side)
+}
+
+/// The pixels in shadow that are not at an edge of what is seen: their neighbours see the same component.
+fn dark_inside((surface, shares, side): &(Surface, Vec<u8>, Elevation)) -> usize {
+    let (width, height) = (side.width as usize, side.height as usize);
+    let part = |at: usize| match surface.face[at] {
+        face if face < Surface::GROUND => u32::from(face >= 12),
+        face => face,
+    };
+    let is_inside = |at: usize| {
+        let (column, row) = (at % width, at / width);
+        let around = (row.saturating_sub(1)..=(row + 1).min(height - 1))
+            .flat_map(|row| (column.saturating_sub(1)..=(column + 1).min(width - 1)).map(move |column| (row, column)));
+        around.map(|(row, column)| part(row * width + column)).all(|other| other == part(at))
+    };
+    (0..shares.len()).filter(|at| shares[*at] == 0 && is_inside(*at)).count()
+}
+
+/// What the sun sees is lit, and nothing else is seen from there: the ground fills what the models leave, however low the
+/// sun stands.
+#[test]
+fn what_the_sun_sees_is_lit() {
+    for (azimuth, altitude) in [(200.0, 40.0), (95.0, 8.0), (310.0, 1.0), (180.0, 89.9), (45.0, 63.0)] {
+        let sun = to_sun(azimuth, altitude);
+        let seen = seen_from_sun(sun, sun);
+        assert_eq!(dark_inside(&seen), 0, "from {azimuth}°, {altitude}°");
+        let (surface, shares, _) = &seen;
+        let dark = shares.iter().filter(|share| **share == 0).count();
+        assert!(dark * 100 < shares.len(), "{dark} dark pixels at edges");
+        let models = surface.face.iter().filter(|face| **face < Surface::GROUND).count();
+        assert!(models > 1000, "{models} pixels of models");
+        for (face, height) in surface.face.iter().zip(&surface.height_m) {
+            assert_ne!(*face, Surface::SKY);
+            assert!(*face != Surface::GROUND || height.abs() < 1e-4, "ground at {height}");
+        }
+    }
+    // the comparison can fail: a sun that stands aside sees other things
+    let seen = seen_from_sun(to_sun(200.0, 40.0), to_sun(215.0, 40.0));
+    assert!(dark_inside(&seen) > 50);
+}
+
+/// From the sun the models are whole in the picture, about its middle and as large as they can be; from the zenith it is
+/// the plan.
+#[test]
+fn the_suns_picture_holds_the_models() {
+    for (azimuth, altitude) in [(200.0, 40.0), (95.0, 8.0), (0.0, 75.0)] {
+        let sun = to_sun(azimuth, altitude);
+        let (surface, _, side) = seen_from_sun(sun, sun);
+        let (width, height) = (side.width as usize, side.height as usize);
+        let seen = (0..surface.face.len()).filter(|at| surface.face[*at] < Surface::GROUND);
+        let places: Vec<_> = seen.map(|at| (at % width, at / width)).collect();
+        let ends = |of: &dyn Fn(&(usize, usize)) -> usize| {
+            let all = places.iter().map(of);
+            (all.clone().min().unwrap(), all.max().unwrap())
+        };
+        let ((west, east), (north, south)) = (ends(&|at| at.0), ends(&|at| at.1));
+        assert!(west >= 3 && east < width - 3 && north >= 2 && south < height - 2, "{west} {east} {north} {south}");
+        let fills = ((east - west) as f64 / width as f64).max((south - north) as f64 / height as f64);
+        assert!(fills > 0.75, "{fills} from {azimuth}°, {altitude}°");
+    }
+    let side = Elevation { to_viewer: DVec3::Z, ..seen_from_sun(to_sun(180.0, 60.0), DVec3::Z).2 };
+    assert_eq!(side.axes(), [DVec3::X, DVec3::Y, DVec3::NEG_Z]);
+    // and right and up stand on the rays
+    let side = Elevation { to_viewer: to_sun(123.0, 34.0), ..side };
+    let [right, up, forward] = side.axes();
+    assert!(right.dot(up).abs() < 1e-12 && up.dot(forward).abs() < 1e-12 && right.z == 0.0 && up.z > 0.0);
+}
+
+/// All pictures of a study have one scale, and a night has none.
+#[test]
+fn pictures_from_the_sun_have_one_scale() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("sites/industry");
+    let site = Site::load(&path, &Overrides { size: Some(100), ..Overrides::default() }).unwrap();
+    let cells: Vec<f64> = site
+        .track
+        .instants
+        .iter()
+        .filter_map(|instant| match site.sun_view(instant.to_sun)? {
+            View::Elevation(side) => Some(side.cell),
+            view => panic!("{view:?}"),
+        })
+        .collect();
+    assert!(cells.len() > 2 && cells.iter().all(|cell| *cell == cells[0]), "{cells:?}");
+    assert_eq!(site.sun_view(dvec3(0.6, 0.0, -0.8)), None);
+}

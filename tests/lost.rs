@@ -6,7 +6,7 @@ use gnomon::deliver::{Folder, Sink};
 use gnomon::gpu::{Gpu, GpuError, lose_after, readback};
 use gnomon::site::{Overrides, Site};
 use gnomon::study::again::persist;
-use gnomon::study::{self, Event, InstantWants, Stopwatch, StudyError, TiledStudy, Wants};
+use gnomon::study::{self, Event, FrameView, InstantWants, Stopwatch, StudyError, TiledStudy, Wants};
 use gnomon::view::View;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -111,7 +111,7 @@ fn frames_are_given_out_once_each() {
     for (loses, masks) in [false, true].into_iter().zip(&mut masks) {
         let mut told = Told::default();
         let given = &mut *masks;
-        study::frames::<StudyError>(&site, view, &mut |event| told.hear(&event), &mut |frame| {
+        study::frames::<StudyError>(&site, FrameView::Still(view), &mut |event| told.hear(&event), &mut |frame| {
             given.push(frame.mask.share.clone());
             if loses && given.len() == 2 {
                 lose_after(0);

@@ -14,7 +14,7 @@ pub enum Subject {
     Terrain,
     /// What a camera sees in perspective.
     Camera,
-    /// A side, along parallel, level rays.
+    /// A side, or what the sun sees, along parallel rays.
     Side,
     /// All flat patches of what receives.
     Patches,
@@ -43,7 +43,7 @@ impl Subject {
             Subject::Top => (Field::Receivers, "top"),
             Subject::Ground | Subject::Terrain => (Field::Receivers, "ground"),
             Subject::Camera => (Field::View, "camera"),
-            Subject::Side => (Field::View, "north, east, south or west"),
+            Subject::Side => (Field::View, "north, east, south, west or sun"),
             Subject::Patches => (Field::Receivers, "surfaces"),
         }
     }

@@ -58,7 +58,7 @@ pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
     }
     let shows = |what| asked.show.contains(&what);
     let request = InstantRequest {
-        view: asked.view.of(&site),
+        view: asked.view.of(&site).at_first(&site)?,
         drawing: out,
         mask: asked.mask.clone(),
         show: instant::Show {

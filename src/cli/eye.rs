@@ -2,6 +2,7 @@
 
 use super::wrong_use::WrongUse;
 use crate::site::Site;
+use crate::study::FrameView;
 use crate::view::{Side, View};
 use clap::ValueEnum;
 
@@ -20,13 +21,15 @@ pub(super) enum Viewpoint {
     South,
     /// The same from the west
     West,
+    /// As the sun sees it, along its rays: what is seen there is lit
+    Sun,
 }
 
 impl Viewpoint {
     /// The side that is named.
     pub(super) fn side(self) -> Option<Side> {
         match self {
-            Viewpoint::Plan | Viewpoint::Camera => None,
+            Viewpoint::Plan | Viewpoint::Camera | Viewpoint::Sun => None,
             Viewpoint::North => Some(Side::North),
             Viewpoint::East => Some(Side::East),
             Viewpoint::South => Some(Side::South),
@@ -35,10 +38,11 @@ impl Viewpoint {
     }
 
     /// The view of a site that was asked for that side.
-    pub(super) fn of(self, site: &Site) -> View {
+    pub(super) fn of(self, site: &Site) -> FrameView {
         match self {
-            Viewpoint::Plan => View::Plan(site.grid),
-            _ => site.picture(),
+            Viewpoint::Plan => FrameView::Still(View::Plan(site.grid)),
+            Viewpoint::Sun => FrameView::Sun,
+            _ => FrameView::Still(site.picture()),
         }
     }
 

@@ -8,8 +8,7 @@ use crate::export::figure::{self, PictureExtras};
 use crate::export::report::{self, ReportContext};
 use crate::profile::Provenance;
 use crate::site::Site;
-use crate::study::{self, Event, Frame, OnEvent, Stopwatch, tell};
-use crate::view::View;
+use crate::study::{self, Event, Frame, FrameView, OnEvent, Stopwatch, tell};
 use std::path::{Path, PathBuf};
 
 /// The default width of a picture, pixels.
@@ -21,7 +20,7 @@ pub(crate) const FPS: u16 = 4;
 #[derive(Clone, Debug)]
 pub struct AnimationRequest {
     /// From where the site is seen.
-    pub view: View,
+    pub view: FrameView,
     /// How wide a picture is, pixels.
     pub width: u32,
     /// Pictures a second in the GIF; each is shown for whole hundredths of a second.
@@ -58,6 +57,7 @@ pub fn animation(
     if count > MOST_FRAMES {
         return Err(DeliverError::TooManyFrames { count, most: MOST_FRAMES });
     }
+    let first_view = asked.view.at_first(site)?;
     // without the folder, which the sink names
     let open = Sink::Folder(folder).open(&Frames::outputs(Path::new(""), count), None)?;
     let mut watch = asked.watch.clone();
@@ -82,9 +82,9 @@ pub fn animation(
     let gif = gif.finish()?;
     watch.lap("gif");
     let timings = &watch.timings();
-    let receivers = study::judged(site, &asked.view);
+    let receivers = study::judged(site, &first_view);
     let told = ReportContext { notes: &notes, ..report_context(site, receivers, &drawn, timings, None) };
-    let report = report::shadow_json(&asked.view, &site.place, &site.track, &told)?;
+    let report = report::shadow_json(&first_view, &site.place, &site.track, &told)?;
     let paths = (0..count).map(|index| Frames::path(folder.path, index)).collect();
     Ok(AnimationAnswer { gif, frames: WrittenFiles { paths, files: Vec::new() }, report, drawn })
 }
@@ -97,10 +97,10 @@ fn draw(
     on_event: &mut OnEvent<'_>,
 ) -> Result<Provenance, DeliverError> {
     study::frames(site, asked.view, on_event, &mut |frame| -> Result<(), DeliverError> {
-        let Frame { track, mask, surface, surface_mesh: mesh, receivers, drawn } = *frame;
+        let Frame { track, mask, view, surface, surface_mesh: mesh, receivers, drawn } = *frame;
         let scene =
             figure::FigureContext { track, ..figure_context(site, DrawnView { receivers, surface, mesh, drawn }) };
-        let picture = figure::instant_on_screen(&scene, &asked.view, mask, &PictureExtras::default(), asked.width)?;
+        let picture = figure::instant_on_screen(&scene, &view, mask, &PictureExtras::default(), asked.width)?;
         Ok(frames.add(&picture)?)
     })
 }

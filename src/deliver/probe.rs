@@ -3,13 +3,15 @@
 use super::parts::note_letters;
 use super::sink::NamedFile;
 use super::{DeliverError, Sink, WrittenFiles};
+use crate::export::figure::scale::Rgb;
+use crate::export::figure::{self, Screen};
+use crate::export::probe as encode;
 use crate::export::totals::totals as encode_totals;
-use crate::export::{figure, probe as encode};
 use crate::message::{Message, Words};
 use crate::site::ProbeSite;
 use crate::study::sky::SkySearch;
 use crate::study::{self, Event, OnEvent, tell};
-use crate::sunlight::Sunlight;
+use crate::sunlight::{ProbeWay, SkyLines, Sunlight};
 use std::path::PathBuf;
 
 /// What is requested besides the answer itself.
@@ -122,19 +124,37 @@ fn draw_skies(
     for (probe, name) in names.into_iter().enumerate().take(sunlight.probes.len()) {
         tell(on_event, Event::Stage("sky"))?;
         let rasters = search.rasters(probe, figure::sky_pictures(&probing.place));
-        let shown = figure::SkyContext {
-            place: &probing.place,
-            ground: &probing.ground,
-            sunlight,
-            probe,
-            lines: &lines,
-            ways: &search.ways(probe)?,
-            colours: &colours,
-        };
+        let ways = search.ways(probe)?;
+        let shown = sky_context((probing, sunlight), (probe, &ways), &lines, &colours);
         let drawing = figure::sky_sheet(&shown, &rasters);
         let is_svg = name.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("svg"));
         let bytes = if is_svg { drawing.svg().into_bytes() } else { drawing.png()? };
         files.push((name, bytes));
     }
     Ok(())
+}
+
+/// The sky of the first point for a card on a screen; none where there is no point.
+///
+/// # Errors
+/// [`DeliverError`].
+pub fn sky_card(probing: &ProbeSite, sunlight: &Sunlight) -> Result<Option<Screen>, DeliverError> {
+    if sunlight.probes.is_empty() {
+        return Ok(None);
+    }
+    let search = SkySearch::new(probing, sunlight);
+    let (lines, ways) = (search.lines()?, search.ways(0)?);
+    let colours = figure::sky_colours(&probing.mesh, &probing.casts);
+    let [raster] = search.rasters(0, [figure::card_picture()]);
+    let shown = sky_context((probing, sunlight), (0, &ways), &lines, &colours);
+    Ok(Some(figure::sky_card(&shown, &raster)?))
+}
+
+fn sky_context<'a>(
+    (probing, sunlight): (&'a ProbeSite, &'a Sunlight),
+    (probe, ways): (usize, &'a [ProbeWay]),
+    lines: &'a SkyLines,
+    colours: &'a [Rgb],
+) -> figure::SkyContext<'a> {
+    figure::SkyContext { place: &probing.place, ground: &probing.ground, sunlight, probe, lines, ways, colours }
 }

@@ -238,6 +238,9 @@ impl App {
         (self.gpu, self.render, self.stage) = devices(cc)?;
         if let Some(open) = &mut self.open {
             open.viewer.forget_pictures();
+            if let Some(sky) = &mut open.sky {
+                sky.forget_texture();
+            }
         }
         self.saving.forget_title();
         Ok(())

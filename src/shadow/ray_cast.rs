@@ -113,7 +113,7 @@ impl RayCast {
                 None => {
                     for (at, end) in ends.iter_mut().enumerate() {
                         let ray = self.rays.of(at as u32 % width, (band * SIDE) as u32 + at as u32 / width);
-                        *end = seen(&self.scene, ray, self.receivers.first_hit(ray.0, ray.1));
+                        *end = seen(&self.scene, &view, ray, self.receivers.first_hit(ray.0, ray.1));
                     }
                 }
             }
@@ -136,7 +136,7 @@ impl RayCast {
             let mut hits = [None; SQUARE];
             self.receivers.first_hits(&origins, shear, &mut hits);
             for ((Cell { at, .. }, ray), hit) in square.zip(rays).zip(hits) {
-                ends[at] = seen(&self.scene, ray, hit);
+                ends[at] = seen(&self.scene, &self.rays.view, ray, hit);
             }
         }
     }
@@ -189,7 +189,7 @@ impl RayCast {
     fn judged(&self, normals: &mut SeenNormals<'_>, Cell { at, column, row }: Cell) -> Option<(DVec3, DVec3)> {
         let RayEnd { face, distance, .. } = self.seen[at];
         // nor is cut earth asked
-        if face == Surface::SKY || (face == Surface::GROUND && distance == 0.0) {
+        if face == Surface::SKY || (face == Surface::GROUND && self.rays.is_cut(distance)) {
             return None;
         }
         let normal = normals.of(face);
@@ -268,8 +268,8 @@ impl RayCast {
         let (from, along) = rays.of(column, row);
         let faces = hits(&scene.receivers, from, &Shear::along(along));
         let first = faces.into_iter().min_by(|(_, one), (_, other)| one.total_cmp(other));
-        let RayEnd { face, distance, .. } = seen(scene, (from, along), first);
-        if face == Surface::SKY || (face == Surface::GROUND && distance == 0.0) {
+        let RayEnd { face, distance, .. } = seen(scene, &rays.view, (from, along), first);
+        if face == Surface::SKY || (face == Surface::GROUND && rays.is_cut(distance)) {
             return 255;
         }
         let normal = self.normals().of(face);
@@ -361,11 +361,16 @@ impl Rays {
             View::Camera(camera) => RayStart::Eye(camera.eye, camera.lens()),
             View::Elevation(side) => {
                 let (low, high) = scene.receivers.bounds().unwrap_or_default();
-                let nearest = DVec3::select(side.to_viewer.cmpgt(DVec3::ZERO), high, low);
-                RayStart::Before(side, (nearest - side.target).dot(side.to_viewer) + 1.0)
+                RayStart::Before(side, away(&side, (low, high)))
             }
         };
         Rays { view, first: [0, 0], origin: scene.casters.origin, start }
+    }
+
+    /// Whether what is seen of the ground there is cut earth.
+    #[inline(always)]
+    fn is_cut(&self, distance: f64) -> bool {
+        distance == 0.0 && matches!(self.view, View::Elevation(side) if side.is_level())
     }
 
     /// The direction of all rays, where they have one.
@@ -398,15 +403,23 @@ impl Rays {
     }
 }
 
+/// How far in front of its own plane a view along parallel rays begins, metres: before a box.
+fn away(side: &Elevation, (low, high): (DVec3, DVec3)) -> f64 {
+    let nearest = DVec3::select(side.to_viewer.cmpgt(DVec3::ZERO), high, low);
+    (nearest - side.target).dot(side.to_viewer) + 1.0
+}
+
 /// What a ray sees whose first face that is.
-fn seen(scene: &Scene, (origin, direction): (DVec3, DVec3), first_hit: Option<(u32, f64)>) -> RayEnd {
+fn seen(scene: &Scene, view: &View, ray: (DVec3, DVec3), first_hit: Option<(u32, f64)>) -> RayEnd {
+    let (origin, direction) = ray;
     // a level ray that begins below the ground sees the earth that is cut there
     if direction.z == 0.0 && origin.z + scene.casters.origin.z < scene.ground {
         return RayEnd::of(Surface::GROUND, 0.0);
     }
     let to_ground = (scene.ground - scene.casters.origin.z - origin.z) / direction.z;
-    let ground =
-        if to_ground > 0.0 && to_ground.is_finite() { RayEnd::of(Surface::GROUND, to_ground) } else { RayEnd::SKY };
+    // rays of the sun come from far away, and what begins below the ground has met it before
+    let is_before = to_ground > 0.0 || matches!(view, View::Elevation(side) if !side.is_level());
+    let ground = if is_before && to_ground.is_finite() { RayEnd::of(Surface::GROUND, to_ground) } else { RayEnd::SKY };
     match first_hit {
         Some((face, distance)) if distance <= ground.distance => RayEnd::of(face, distance),
         _ => ground,
@@ -423,7 +436,12 @@ pub(super) fn reach(scene: &Scene, view: &View) -> f64 {
         View::Camera(camera) => camera.eye.abs(),
         View::Elevation(side) => {
             let (low, high) = scene.receivers.bounds().unwrap_or_default();
-            (side.target.abs() + side.half_size().max_element()).max(low.abs()).max(high.abs()) + 1.0
+            let half = side.half_size();
+            if side.is_level() {
+                (side.target.abs() + half.max_element()).max(low.abs()).max(high.abs()) + 1.0
+            } else {
+                side.target.abs() + half.length() + away(side, (low, high)).abs()
+            }
         }
     };
     (farthest + scene.casters.origin.abs()).max_element()

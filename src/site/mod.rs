@@ -90,7 +90,8 @@ use crate::choice::{Engine, Finder, Method, Receivers, Settings};
 use crate::mesh::Mesh;
 use crate::message::{Message, Words};
 use crate::sun::{Place, SunTrack};
-use crate::view::{Camera, Grid, Side, View};
+use crate::view::{Camera, Elevation, Grid, Side, View};
+use glam::DVec3;
 
 /// The checked request: place, models, receivers, study.
 #[derive(Clone, Debug)]
@@ -155,5 +156,16 @@ impl Site {
             Some(side) => View::Elevation(self.camera.side(side)),
             None => View::Camera(self.camera),
         }
+    }
+
+    /// What a sun sees of all models, in a picture of the camera's size; at the scale that all suns of the study need. None
+    /// for a sun that is not above the horizon.
+    pub fn sun_view(&self, to_sun: DVec3) -> Option<View> {
+        let is_up = |to_sun: &DVec3| to_sun.z > 0.0;
+        let suns = self.track.instants.iter().map(|instant| instant.to_sun).filter(is_up);
+        let (low, high) = self.mesh.bounds_at_home().unwrap_or((DVec3::ZERO, DVec3::ZERO));
+        let above = (low.with_z(low.z.max(self.ground.level)), high.with_z(high.z.max(self.ground.level)));
+        let size = [self.camera.width, self.camera.height];
+        is_up(&to_sun).then(|| View::Elevation(Elevation::from_sun(to_sun, above, size, suns)))
     }
 }

@@ -4,7 +4,8 @@ use crate::choice::Misfit;
 use crate::gpu::GpuError;
 use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display, setting};
 use crate::shadow::ShadowError;
-use crate::sun::SunError;
+use crate::sun::{SunError, Zone};
+use chrono::DateTime;
 
 /// Why a study fails, in one line.
 #[derive(Debug, thiserror::Error)]
@@ -66,6 +67,13 @@ pub enum StudyError {
     NoDevice(String),
     /// All instants are at night.
     NoDay,
+    /// The sun is the viewer, and it is below the horizon.
+    NoSunToSee {
+        /// The time.
+        time: DateTime<Zone>,
+        /// How far below the horizon the sun is, degrees.
+        below_deg: f64,
+    },
     /// The sun's position cannot be computed.
     Sun(#[from] SunError),
     /// Drawing failed.
@@ -104,6 +112,14 @@ impl Worded for StudyError {
             StudyError::NoPatch => {
                 message!["no component that receives has a surface"; "see ", setting("[[model]]", "receives", "`receives` in the site file")]
             }
+            StudyError::NoSunToSee { time, below_deg } => message![
+                Field::View,
+                format!(
+                    ": no sun sees the site at {}: it is {below_deg:.1}° below the horizon",
+                    time.format("%Y-%m-%d %H:%M")
+                );
+                "take times of day, or look from elsewhere"
+            ],
             StudyError::NoInstant => message!["there is no instant to draw"],
             StudyError::Components { list, length, components } => message![
                 format!("the site's list `{list}` has {length} entries, and its mesh {components} components");

@@ -52,7 +52,7 @@ pub use error::StudyError;
 pub use event::{Event, OnEvent};
 pub(crate) use event::{gather, note_models, note_site, tell};
 #[doc(hidden)]
-pub use frames::{Frame, frames};
+pub use frames::{Frame, FrameView, frames};
 #[doc(hidden)]
 pub use instant::instant;
 

@@ -3,6 +3,7 @@
 mod face_tree;
 #[cfg(feature = "test-hooks")]
 mod halving;
+mod headroom;
 mod patches;
 mod probes;
 mod search;
@@ -13,6 +14,7 @@ mod sky_lines;
 mod sky_raster;
 mod sun_path;
 
+pub use headroom::{Headroom, KeptSeconds, RayHeight, roomiest};
 pub use patches::{Exposure, PatchHours};
 pub use probes::{Interval, IntervalBound, JudgedPoint, ProbeIntervals, SunDay, Sunlight, judged, longest, secs};
 pub use search::{ProbeSearch, SearchedDays};

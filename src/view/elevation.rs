@@ -1,4 +1,4 @@
-//! The view of a side, along level, parallel rays.
+//! The view along parallel rays: of a side, level, or as the sun sees a site.
 
 use glam::{DVec2, DVec3};
 
@@ -55,12 +55,13 @@ impl Side {
     }
 }
 
-/// A picture of one side: level, along parallel rays, true to scale. What lies below the ground is behind the earth.
+/// A picture along parallel rays. Of a side it is level and true to scale, and what lies below the ground is behind the
+/// earth. Along the sun's rays it shows what the sun sees.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Elevation {
     /// The point in the middle of the picture, metres.
     pub target: DVec3,
-    /// The level unit vector towards the viewer.
+    /// The unit vector towards the viewer; level for a side, otherwise upwards.
     pub to_viewer: DVec3,
     /// Side of a pixel, metres.
     pub cell: f64,
@@ -71,10 +72,41 @@ pub struct Elevation {
 }
 
 impl Elevation {
+    /// As a viewer at the sun sees a box: whole in a picture of that many pixels, with as large a cell as several suns
+    /// need. Suns in the horizon or below see nothing, and none of these may be the viewer.
+    pub fn from_sun(
+        to_sun: DVec3,
+        (low, high): (DVec3, DVec3),
+        [width, height]: [u32; 2],
+        suns: impl Iterator<Item = DVec3>,
+    ) -> Elevation {
+        let target = (low + high) / 2.0;
+        let seen = Elevation { target, to_viewer: to_sun, cell: 1.0, width, height };
+        let pixels = DVec2::new(f64::from(width.max(1)), f64::from(height.max(1))) * (1.0 - 2.0 * BESIDE);
+        let needed = |to_viewer: DVec3| {
+            let [right, up, _] = Elevation { to_viewer, ..seen }.axes();
+            // the box reaches as far to one side of its middle as to the other
+            let size = DVec2::new((high - low).dot(right.abs()), (high - low).dot(up.abs()));
+            (size / pixels).max_element()
+        };
+        let cell = suns.chain([to_sun]).map(needed).fold(LEAST / pixels.y, f64::max);
+        Elevation { cell, ..seen }
+    }
+
+    /// Whether it is of a side, with the earth cut at the ground.
+    pub fn is_level(&self) -> bool {
+        self.to_viewer.z == 0.0
+    }
+
     /// Rightwards, upwards and forwards in the picture: unit vectors in the world frame.
     pub fn axes(&self) -> [DVec3; 3] {
         let forward = -self.to_viewer;
-        [forward.cross(DVec3::Z), DVec3::Z, forward]
+        if self.is_level() {
+            return [forward.cross(DVec3::Z), DVec3::Z, forward];
+        }
+        // from the zenith it is a plan, north up
+        let right = forward.cross(DVec3::Z).try_normalize().unwrap_or(DVec3::X);
+        [right, right.cross(forward), forward]
     }
 
     /// Half the picture's width and height, metres.

@@ -41,7 +41,7 @@ pub enum View {
     Plan(Grid),
     /// A perspective picture.
     Camera(Camera),
-    /// A side, along parallel rays.
+    /// A side, or what the sun sees, along parallel rays.
     Elevation(Elevation),
 }
 
@@ -55,8 +55,8 @@ impl View {
         }
     }
 
-    /// The viewer as a homogeneous point: the eye, the direction straight up, or the level direction towards the
-    /// viewer.
+    /// The viewer as a homogeneous point: the eye, the direction straight up, or the direction towards the viewer
+    /// of parallel rays.
     pub fn viewer(&self) -> DVec4 {
         match self {
             View::Plan(_) => DVec4::Z,

@@ -1,4 +1,4 @@
-//! `--view south` and `[camera] side`: a side along parallel rays, by the command.
+//! `--view south` and `[camera] side`: a side along parallel rays, by the command; and `--view sun`.
 
 use crate::shared::program::{done, fails, pixels, site};
 use serde_json::{Value, json};
@@ -107,7 +107,7 @@ fn hours_on_patches_are_seen_from_a_side() {
 fn what_a_side_cannot_have_is_told() {
     let folder = site();
     let refused = |options: &str, words: &[&str]| fails(folder.path(), &format!("{AT} {options}"), 2, words);
-    refused("--view up", &["up", "plan, camera, north, east, south, west"]);
+    refused("--view up", &["up", "plan, camera, north, east, south, west, sun"]);
     refused("--view south --cell 1", &["--cell", "--view south", "leave one out"]);
     refused("--view south --receivers ground", &["--receivers", "--view south"]);
     for show in ["volumes", "silhouette", "overdraw"] {
@@ -130,4 +130,49 @@ fn what_a_side_cannot_have_is_told() {
     fails(folder.path(), &format!("{AT} --view camera"), 1, &["[camera] side", "side = \"south\""]);
     write(folder.path(), "sides = \"south\"");
     fails(folder.path(), &format!("{AT} --view camera"), 1, &["side in [camera]"]);
+}
+
+/// From the sun everything that is seen is lit, and the report says from where that is; an animation follows the sun.
+#[test]
+fn the_sun_sees_what_is_lit() {
+    let folder = site();
+    let said = done(folder.path(), &format!("{AT} --view sun --out sun.png --mask m.png --json"));
+    let json: Value = serde_json::from_str(&said).unwrap();
+    let to_viewer: Vec<f64> = json["to_viewer"].as_array().unwrap().iter().map(|part| part.as_f64().unwrap()).collect();
+    let instant = &json["instants"][0];
+    let [azimuth, altitude] = ["azimuth_deg", "altitude_deg"].map(|key| instant[key].as_f64().unwrap().to_radians());
+    let to_sun = [azimuth.sin() * altitude.cos(), azimuth.cos() * altitude.cos(), altitude.sin()];
+    assert!(to_viewer.iter().zip(to_sun).all(|(one, other)| (one - other).abs() < 1e-6), "{to_viewer:?} {to_sun:?}");
+    let dark = |name: &str| {
+        let mask = image::open(folder.path().join(name)).unwrap().into_luma8();
+        mask.pixels().filter(|pixel| pixel.0 == [0]).count()
+    };
+    // along silhouettes alone, of 1,600,000 pixels
+    let silhouettes = dark("m.png");
+    assert!(silhouettes < 2_000, "{silhouettes} dark pixels");
+    // which a picture from elsewhere shows to be a bound that can be broken
+    done(folder.path(), &format!("{AT} --view east --mask e.png"));
+    assert!(dark("e.png") > 100_000, "the east side has no shadow in the afternoon");
+    done(folder.path(), "animate . --view sun --from 14:00 --to 16:00 --step 1h --width 3508 --quiet");
+    let frame = |index: usize| {
+        let path = folder.path().join(format!("out/frame-000{index}.png"));
+        image::open(path).unwrap().into_rgb8()
+    };
+    assert!(frame(0) != frame(1), "the sun does not move");
+    fails(
+        folder.path(),
+        "shadow . --at 2026-09-18T23:00 --view sun",
+        1,
+        &["--view", "2026-09-18 23:00", "below the horizon"],
+    );
+    fails(
+        folder.path(),
+        "animate . --view sun --from 18:00 --to 22:00 --step 1h",
+        1,
+        &["--view", "below the horizon", "times of day"],
+    );
+    let refused = |options: &str, words: &[&str]| fails(folder.path(), &format!("{AT} --view sun {options}"), 2, words);
+    refused("--cell 1", &["--cell", "--view sun", "leave one out"]);
+    refused("--technique stencil", &["--technique", "ray-cast"]);
+    refused("--show volumes", &["--show", "leave it out"]);
 }

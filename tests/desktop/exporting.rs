@@ -114,6 +114,7 @@ fn click_on_the_model_finds_when_the_sun_reaches_it() {
     harness.get_by_label_contains("ground    ");
     click_at(&mut harness, at);
     harness.get_by_label("Sun at ground");
+    harness.get_by_label("The sky of the point");
     assert!(harness.query_all_by_label_contains("of sun").count() > 0);
     click(&mut harness, "Keep in the site file");
     settle(&mut harness);

@@ -6,6 +6,7 @@ use crate::shared::program::{done, fails, names, pixels, site};
 use crate::shared::scenes::sheet;
 use chrono::{Datelike, NaiveDate};
 use glam::{DVec2, DVec3, dvec3};
+use gnomon::deliver::probe::sky_card;
 use gnomon::export::figure::{SkyContext, sky_colours, sky_pictures, sky_sheet};
 use gnomon::mesh::Part;
 use gnomon::site::ProbeSite;
@@ -352,4 +353,24 @@ fn every_point_has_a_sheet_of_its_own() {
     fails(path, "probe . --points many.csv --sky many.png", 2, &["--sky", "101 points", "at most 100"]);
     fails(path, "probe . --point 0,0,30 --sky sky.pdf", 2, &["--sky", "PNG or SVG", ".png or .svg"]);
     fails(path, "probe . --point 0,0,30 --sky tower.glb", 2, &["--sky"]);
+}
+
+/// The window's card has the disc alone, in the same colours.
+#[test]
+fn a_card_shows_the_disc() {
+    let window = vec![day(&paris(), "2026-03-21", None)];
+    let asked = probing(&paris(), vec![north_wall(10.0)], vec![at(DVec3::ZERO, None)], window);
+    let sunlight = found(&asked);
+    let card = sky_card(&asked, &sunlight).unwrap().unwrap();
+    assert_eq!(card.pixels.len(), card.width as usize * card.height as usize);
+    let wall = sky_colours(&asked.mesh, &asked.casts)[0];
+    let of = |colour: [u8; 3]| {
+        let drawn = (0..card.pixels.len()).filter(|at| card.pixels[*at] == colour);
+        drawn.map(|at| DVec2::new((at as u32 % card.width) as f64, (at as u32 / card.width) as f64)).collect::<Vec<_>>()
+    };
+    // the wall in the north, the sun's way south of the zenith
+    let middle = f64::from(card.height) / 2.0;
+    let (walls, ways) = (of(wall), of([240, 164, 0]));
+    assert!(walls.len() > 5_000 && walls.iter().all(|at| at.y < middle), "{}", walls.len());
+    assert!(ways.len() > 1_000 && ways.iter().all(|at| at.y > middle - 10.0), "{}", ways.len());
 }

@@ -100,7 +100,7 @@ fn probe(open: &mut Open, settings: &mut WindowSettings, unit: Unit, result: Opt
         });
         return;
     }
-    let Some(sunlight) = &open.sunlight else { return };
+    let (sky, Some(sunlight)) = (&mut open.sky, &open.sunlight) else { return };
     let Some(probed) = sunlight.probes.first() else { return };
     ui.label(egui::RichText::new(format!("Sun at {}", probed.probe.name)).font(theme::bold(13.5)));
     let point = probed.probe.point;
@@ -113,6 +113,9 @@ fn probe(open: &mut Open, settings: &mut WindowSettings, unit: Unit, result: Opt
         let said = open.result.as_ref().zip(under).and_then(|(result, under)| result.said(under, unit));
         place(ui, probed, said, unit);
         intervals(ui, sunlight);
+        if let Some(sky) = sky {
+            sky.show(ui);
+        }
         if let Some(under) = under.filter(|under| under.face.is_some())
             && ui.button("Hide this component").clicked()
         {
@@ -131,7 +134,7 @@ fn probe(open: &mut Open, settings: &mut WindowSettings, unit: Unit, result: Opt
         closes |= ui.button("Forget the point").clicked();
     });
     if closes {
-        open.sunlight = None;
+        (open.sunlight, open.sky) = (None, None);
     }
 }
 

@@ -72,6 +72,7 @@ impl App {
             before: None,
             probing: None,
             sunlight: None,
+            sky: None,
             clicked: None,
             project,
         });
@@ -128,7 +129,7 @@ impl Open {
         let is_rebuilt = self.project.models.mark() != project.models.mark();
         if is_rebuilt || then.model != now.model || then.ground != now.ground || then.place != now.place {
             // what was found of a point was found of another scene
-            (self.sunlight, self.probing, self.clicked) = (None, None, None);
+            (self.sunlight, self.sky, self.probing, self.clicked) = (None, None, None, None);
         }
         (self.project, self.number) = (project, number);
         self.result = self.result.take().filter(|result| result.lies_on(&self.project.site));

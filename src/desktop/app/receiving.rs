@@ -1,12 +1,14 @@
 //! Receives the results of the work in other threads.
 
 use crate::desktop::app::state::App;
+use crate::desktop::parts::point_sky::PointSky;
 use crate::desktop::results::StudyResult;
 use crate::desktop::results::before::BeforeState;
 use crate::desktop::state::bare_model::BareModel;
 use crate::desktop::state::saving::PendingAction;
 use crate::desktop::work::Work;
 use crate::desktop::work::loading::{LoadError, LoadJob};
+use crate::desktop::work::studies::ClickedSun;
 use eframe::egui;
 use std::sync::Arc;
 
@@ -98,7 +100,9 @@ impl App {
         let Some(result) = open.probing.as_ref().and_then(Work::done) else { return };
         open.probing = None;
         match result {
-            Ok(sunlight) => open.sunlight = Some(sunlight),
+            Ok(ClickedSun { sunlight, sky }) => {
+                (open.sunlight, open.sky) = (Some(sunlight), sky.map(PointSky::new));
+            }
             Err(fault) => self.fault = Some(fault),
         }
     }

@@ -3,6 +3,7 @@
 use crate::desktop::app::device::devices;
 use crate::desktop::parts::fields::TypedText;
 use crate::desktop::parts::path_dialog::PathDialog;
+use crate::desktop::parts::point_sky::PointSky;
 use crate::desktop::parts::theme;
 use crate::desktop::parts::view::Viewer;
 use crate::desktop::results::StudyResult;
@@ -17,6 +18,7 @@ use crate::desktop::state::saving::SaveState;
 use crate::desktop::state::settings::{History, WindowSettings};
 use crate::desktop::work::Work;
 use crate::desktop::work::loading::{LoadJob, LoadRequest};
+use crate::desktop::work::studies::ClickedSun;
 use crate::export::figure::Colours;
 use crate::formats::ModelReader;
 use crate::gpu::{Gpu, readback};
@@ -54,9 +56,11 @@ pub(in crate::desktop) struct Open {
     /// The state that was kept for comparison.
     pub(in crate::desktop) before: Option<BeforeState>,
     /// The point that is being searched.
-    pub(in crate::desktop) probing: Option<Work<Sunlight>>,
+    pub(in crate::desktop) probing: Option<Work<ClickedSun>>,
     /// The intervals in which a point lies in the sun.
     pub(in crate::desktop) sunlight: Option<Sunlight>,
+    /// The picture of that point's sky.
+    pub(in crate::desktop) sky: Option<PointSky>,
     /// The point that was clicked.
     pub(in crate::desktop) clicked: Option<PickedPoint>,
 }

@@ -4,6 +4,7 @@
 pub(in crate::desktop) mod components;
 pub(in crate::desktop) mod fields;
 pub(in crate::desktop) mod path_dialog;
+pub(in crate::desktop) mod point_sky;
 pub(in crate::desktop) mod question;
 pub(in crate::desktop) mod screen;
 pub(in crate::desktop) mod sky;

@@ -13,7 +13,7 @@ use crate::desktop::state::technique;
 use crate::desktop::work::{WHO, Work};
 use crate::site::file::{CameraTable, SiteFile};
 use crate::site::{Models, Overrides, Site, SiteError, WrittenSite};
-use crate::study::{Event, Stopwatch};
+use crate::study::{Event, FrameView, Stopwatch};
 use crate::sun::Zone;
 use crate::view::View;
 use chrono::DateTime;
@@ -145,7 +145,8 @@ pub(in crate::desktop) fn animation(
             Event::Drawn { index, count: 2 * count, time, mask: None, bits: None }
         };
         let view = view_from(&site, &eye);
-        let request = AnimationRequest { view, width: WIDTH, fps: FPS, watch: Stopwatch::start() };
+        let request =
+            AnimationRequest { view: FrameView::Still(view), width: WIDTH, fps: FPS, watch: Stopwatch::start() };
         let inside = Folder { path: &folder, who: WHO, inputs: &inputs };
         let mut in_gif = 0;
         let answer = animation::animation(&site, &request, inside, &mut |event| match event {

@@ -15,7 +15,7 @@ use crate::desktop::results::hours::ShadowHours;
 use crate::desktop::results::{Findings, StudyResult};
 use crate::desktop::state::project::Project;
 use crate::desktop::work::{WHO, Work};
-use crate::export::figure::{self, ChangeColours};
+use crate::export::figure::{self, ChangeColours, Screen};
 use crate::export::patches::Atlas;
 use crate::site::{Models, Overrides, Pair, ProbeSite, Site, WrittenSite};
 use crate::study::{CompareOutcome, Event, OnEvent, Outcome, Stopwatch, StudyError};
@@ -54,13 +54,21 @@ pub(in crate::desktop) fn hours(project: &Project, order: StudyOrder) -> Work<St
     })
 }
 
-/// Finds when a point lies in the sun on a date.
+/// What is found of a clicked point.
+pub(in crate::desktop) struct ClickedSun {
+    /// When it lies in the sun.
+    pub(in crate::desktop) sunlight: Sunlight,
+    /// The picture of its sky.
+    pub(in crate::desktop) sky: Option<Screen>,
+}
+
+/// Finds when a point lies in the sun on a date, and draws its sky.
 pub(in crate::desktop) fn probe(
     project: &Project,
     probe: Probe,
     date: NaiveDate,
     context: egui::Context,
-) -> Work<Sunlight> {
+) -> Work<ClickedSun> {
     let site = Arc::clone(&project.site);
     Work::start(context, move |on_event| {
         let day = DayWindow::on(&site.place, date, None, None).map_err(StudyError::from)?;
@@ -76,7 +84,9 @@ pub(in crate::desktop) fn probe(
             days: vec![day],
             refraction: site.track.refraction,
         };
-        Ok(probe::probe(&probing, &ProbeRequest::default(), Sink::Memory, on_event)?.sunlight)
+        let sunlight = probe::probe(&probing, &ProbeRequest::default(), Sink::Memory, on_event)?.sunlight;
+        let sky = probe::sky_card(&probing, &sunlight)?;
+        Ok(ClickedSun { sunlight, sky })
     })
 }
 

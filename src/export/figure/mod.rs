@@ -29,7 +29,7 @@ pub use counted::{Colours, Diagram};
 pub use difference::{ChangeBands, ChangeColours, difference};
 pub use fonts::{runs, without_face};
 pub use lines::{LineDrawing, MOST_OUTLINES, Outline, iso_hours, outlines};
-pub use lines::{SkyContext, sky_colours, sky_pictures, sky_sheet};
+pub use lines::{SkyContext, card_picture, sky_card, sky_colours, sky_pictures, sky_sheet};
 pub use panel::ScaleBar;
 pub use paper::{HEIGHT, WIDTH};
 pub use patches::{legend as patches_legend, patches};
@@ -194,7 +194,8 @@ fn instant_panel(scene: &FigureContext, view: &View, now: &Instant, shown: &Pict
     let seen = match view {
         View::Camera(_) => Some("what the camera sees"),
         // the cut earth is not
-        View::Elevation(_) => Some("what is seen above the ground"),
+        View::Elevation(side) if side.is_level() => Some("what is seen above the ground"),
+        View::Elevation(_) => Some("what the sun sees"),
         View::Plan(_) => None,
     };
     if let (Some(seen), Receivers::Top) = (seen, scene.receivers) {
@@ -228,7 +229,8 @@ fn instant_legend(
     legend
 }
 
-/// The camera or side of a picture, and a pixel's side in metres if it is true to scale. For a side the panel names it.
+/// The camera or side of a picture, and a pixel's side in metres if it is true to scale. A side and the sun are named in
+/// the panel.
 fn lens(view: &View, panel: &mut Panel) -> Result<(perspective::PixelRays, Option<f64>), ExportError> {
     match view {
         View::Plan(_) => Err(ExportError::encode("drawing", "a plan has no lens")),
@@ -236,7 +238,9 @@ fn lens(view: &View, panel: &mut Panel) -> Result<(perspective::PixelRays, Optio
         View::Elevation(side) => {
             panel.facts.push(("Seen", words::side(side)));
             panel.north_up = false;
-            Ok((perspective::PixelRays::of_side(side), Some(side.cell)))
+            // across the sun's rays alone lengths are true
+            let cell = side.is_level().then_some(side.cell);
+            Ok((perspective::PixelRays::of_side(side), cell))
         }
     }
 }

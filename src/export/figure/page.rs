@@ -260,6 +260,14 @@ fn letter(overlay: &Block, pieces: &mut [SheetPart]) -> Result<(), ExportError> 
     Ok(())
 }
 
+/// A block alone on paper, without a sheet around it: so many pixels from its corner on.
+pub(super) fn part(block: &Block, (width, height): (u32, u32)) -> Result<Vec<Rgb>, ExportError> {
+    let mut pieces = [SheetPart::blank([0, 0, width, height])?];
+    letter(block, &mut pieces)?;
+    let [piece] = pieces;
+    Ok(piece.pixels.data().as_chunks::<4>().0.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect())
+}
+
 /// A sheet as SVG, of its size on A3. Where Noto Sans is missing, another plain font replaces it.
 pub(super) fn svg(sheet: &Block) -> String {
     let paper = hex(PAPER);

@@ -43,7 +43,7 @@ pub(super) fn instant(
             let colour = match scene.surface.face[pixel] {
                 Surface::SKY => sky(ray),
                 Surface::GROUND => {
-                    let card = if lens.side.is_some() { LOOK.ground * LOOK.cut_earth } else { LOOK.ground };
+                    let card = if lens.is_level { LOOK.ground * LOOK.cut_earth } else { LOOK.ground };
                     let lit = card * light.on(DVec3::Z, share);
                     let far = lens.ground_distance(scene, pixel, ray);
                     lit.lerp(LOOK.horizon, lens.haze(far))
@@ -100,10 +100,12 @@ pub(super) struct PixelRays {
     up: DVec3,
     size: [f64; 2],
     focus_m: f64,
-    /// The viewer as a homogeneous point: the eye, or the direction to the viewer of a side.
+    /// The viewer as a homogeneous point: the eye, or the direction to the viewer of parallel rays.
     pub(super) viewer: DVec4,
-    /// For a side, the middle of its picture and a pixel's side in metres.
+    /// Of parallel rays, the middle of the picture and a pixel's side in metres.
     side: Option<(DVec3, f64)>,
+    /// Whether it is a side, with cut earth below the ground's line.
+    is_level: bool,
 }
 
 impl PixelRays {
@@ -122,10 +124,11 @@ impl PixelRays {
             focus_m: sight.length().max(1e-6),
             viewer: camera.eye.extend(1.0),
             side: None,
+            is_level: false,
         }
     }
 
-    /// The rays of a side, which are parallel.
+    /// The rays of a side or of the sun, which are parallel.
     pub(super) fn of_side(side: &Elevation) -> PixelRays {
         let [right, up, forward] = side.axes();
         let half = side.half_size();
@@ -137,6 +140,7 @@ impl PixelRays {
             focus_m: 1.0,
             viewer: side.to_viewer.extend(0.0),
             side: Some((side.target, side.cell)),
+            is_level: side.is_level(),
         }
     }
 
@@ -230,7 +234,7 @@ fn pen(scene: &FigureContext, lens: &PixelRays, a: usize, b: usize) -> Option<Pe
     let building = |face: u32| face < Surface::GROUND;
     match (building(from), building(to)) {
         // the ground's line is seen from a side alone
-        (false, false) => lens.side.map(|_| Pen::STEP),
+        (false, false) => lens.is_level.then_some(Pen::STEP),
         (true, true) => {
             let (from, to) = (facing(scene, from, lens.viewer), facing(scene, to, lens.viewer));
             let width = lens.width();

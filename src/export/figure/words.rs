@@ -66,8 +66,11 @@ pub(super) fn almanac(time: &DateTime<Zone>) -> String {
     (*time + chrono::Duration::seconds(30)).format("%H:%M").to_string()
 }
 
-/// `from the south, along level rays`.
+/// `from the south, along level rays`, or `as the sun sees it, along its rays`.
 pub(super) fn side(side: &Elevation) -> String {
+    if !side.is_level() {
+        return "as the sun sees it, along its rays".to_owned();
+    }
     let azimuth_deg = side.to_viewer.x.atan2(side.to_viewer.y).to_degrees().rem_euclid(360.0);
     let nearest = (azimuth_deg / 90.0).round();
     let from = match ["the north", "the east", "the south", "the west"].get(nearest as usize % 4) {

@@ -11,7 +11,7 @@ mod sky;
 
 pub use hours::iso_hours;
 pub use outlines::{MOST_OUTLINES, Outline, outlines};
-pub use sky::{SkyContext, sky_colours, sky_pictures, sky_sheet};
+pub use sky::{SkyContext, card_picture, sky_card, sky_colours, sky_pictures, sky_sheet};
 
 use super::Panel;
 use super::page::{self, Sheet};

@@ -14,11 +14,23 @@ pub(super) struct SkyChart<'a> {
     pub(super) raster: &'a SkyRaster,
     /// Pixels a cell.
     cell: f64,
+    /// How thick lines are, and how far labels stand from them: 1 on a sheet.
+    pub(super) pen: f64,
 }
 
 impl<'a> SkyChart<'a> {
+    /// On a sheet.
     pub(super) fn at(corner: [f64; 2], raster: &'a SkyRaster, cell: f64) -> SkyChart<'a> {
-        SkyChart { corner, raster, cell }
+        SkyChart { corner, raster, cell, pen: 1.0 }
+    }
+
+    /// On a card, a pixel a cell: with thin lines, and without what would be too small to be read.
+    pub(super) fn small(corner: [f64; 2], raster: &'a SkyRaster) -> SkyChart<'a> {
+        SkyChart { corner, raster, cell: 1.0, pen: 0.55 }
+    }
+
+    pub(super) fn is_small(&self) -> bool {
+        self.pen < 1.0
     }
 
     pub(super) fn name(&self) -> &'static str {
@@ -93,7 +105,7 @@ impl<'a> SkyChart<'a> {
         block.push(format_args!(
             "<path d=\"{data}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"{dashes}/>",
             hex(colour),
-            SvgNumber(width),
+            SvgNumber(width * self.pen),
         ));
     }
 }

@@ -53,7 +53,12 @@ impl SkyChart<'_> {
 
     /// The horizon, with the azimuths around it; at the strip's sides the altitudes.
     pub(super) fn rim(&self, block: &mut Block) {
-        block.push(format_args!("{} fill=\"none\" stroke=\"{}\" stroke-width=\"4\"/>", self.shape(), hex(INK)));
+        block.push(format_args!(
+            "{} fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"/>",
+            self.shape(),
+            hex(INK),
+            4.0 * self.pen
+        ));
         match self.raster.picture.projection {
             SkyProjection::Stereographic => self.disc_rim(block),
             SkyProjection::Cylindrical { middle_rad } => self.strip_rim(block, middle_rad.to_degrees()),
@@ -69,12 +74,12 @@ impl SkyChart<'_> {
         };
         for azimuth in (0..360).step_by(10) {
             let length = if azimuth % 30 == 0 { 16.0 } else { 9.0 };
-            let ends = [0.0, length].map(|out| at(f64::from(azimuth), radius + out));
-            block.polyline(&ends, 2.0, INK);
+            let ends = [0.0, length * self.pen].map(|out| at(f64::from(azimuth), radius + out));
+            block.polyline(&ends, 2.0 * self.pen, INK);
         }
-        for azimuth in (0..360).step_by(30) {
-            let [x, y] = at(f64::from(azimuth), radius + 46.0);
-            rim_label(block, [x, y], azimuth);
+        for azimuth in (0..360).step_by(if self.is_small() { 90 } else { 30 }) {
+            let [x, y] = at(f64::from(azimuth), radius + 46.0 * self.pen);
+            rim_label(block, [x, y], azimuth, if self.is_small() { 28.0 } else { 40.0 });
         }
     }
 
@@ -86,7 +91,7 @@ impl SkyChart<'_> {
             let length = if azimuth % 30 == 0 { 16.0 } else { 9.0 };
             block.polyline(&[[at, y + height], [at, y + height + length]], 2.0, INK);
             if azimuth % 30 == 0 {
-                rim_label(block, [at, y + height + 40.0], azimuth);
+                rim_label(block, [at, y + height + 40.0], azimuth, 40.0);
             }
         }
         for altitude in (0..=90).step_by(10) {
@@ -109,10 +114,10 @@ impl SkyChart<'_> {
 }
 
 /// The cardinal direction in bold, or degrees.
-fn rim_label(block: &mut Block, [x, y]: [f64; 2], azimuth: i32) {
+fn rim_label(block: &mut Block, [x, y]: [f64; 2], azimuth: i32, size: f64) {
     let cardinal = [(0, "N"), (90, "E"), (180, "S"), (270, "W")].into_iter().find(|(at, _)| *at == azimuth);
     let (style, said) = match cardinal {
-        Some((_, letter)) => (LetterStyle { size: 40.0, ..LetterStyle::HEAD }, letter.to_owned()),
+        Some((_, letter)) => (LetterStyle { size, ..LetterStyle::HEAD }, letter.to_owned()),
         None => (LetterStyle::FINE, format!("{azimuth}°")),
     };
     block.text(x, y + style.size * 0.36, TextAnchor::Middle, style, &said);

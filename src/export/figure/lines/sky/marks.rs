@@ -33,16 +33,21 @@ impl SkyChart<'_> {
 
     /// Writes everything, what matters most first: of what finds no room the later is left out.
     pub(super) fn mark(&self, labels: &mut Labels, shown: &SkyContext) {
-        if let [way] = shown.ways {
-            self.times(labels, way);
-        }
-        for (said, at) in self.altitudes(shown.place.latitude_deg < 0.0) {
-            labels.place(&said, GRAY, &mut [Spot { at, angle: 0.0, cost: 0.0 }]);
+        if !self.is_small() {
+            if let [way] = shown.ways {
+                self.times(labels, way);
+            }
+            for (said, at) in self.altitudes(shown.place.latitude_deg < 0.0) {
+                labels.place(&said, GRAY, &mut [Spot { at, angle: 0.0, cost: 0.0 }]);
+            }
         }
         let (sin, cos) = shown.place.latitude_deg.to_radians().sin_cos();
         let pole = DVec3::new(0.0, cos, sin);
         for hour in &shown.lines.clock_hours {
             self.clock_hour(labels, hour, pole);
+        }
+        if self.is_small() {
+            return;
         }
         self.months(labels, shown);
         for hour in &shown.lines.solar_hours {
@@ -77,8 +82,8 @@ impl SkyChart<'_> {
             }
             let out = out.map(|part| part / length);
             let mut spots = Vec::new();
-            for away in [26.0, 36.0, 48.0] {
-                for aside in [0.0, -16.0, 16.0] {
+            for away in [26.0, 36.0, 48.0].map(|away| away * self.pen) {
+                for aside in [0.0, -16.0, 16.0].map(|aside| aside * self.pen) {
                     let at = [at[0] + out[0] * away - out[1] * aside, at[1] + out[1] * away + out[0] * aside];
                     spots.push(Spot { at, angle: 0.0, cost: away + f64::abs(aside) });
                 }

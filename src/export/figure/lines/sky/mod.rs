@@ -12,4 +12,4 @@ mod tones;
 mod ways;
 
 pub use context::{SkyContext, sky_colours, sky_pictures};
-pub use sheet::sky_sheet;
+pub use sheet::{card_picture, sky_card, sky_sheet};

@@ -3,13 +3,14 @@
 use super::chart::SkyChart;
 use super::context::{CELL, DISC, STRIP, SkyContext};
 use super::panel;
+use crate::export::ExportError;
 use crate::export::figure::lines::labels::Labels;
 use crate::export::figure::lines::{LineDrawing, group};
-use crate::export::figure::page;
 use crate::export::figure::svg::{Block, INK, LetterStyle, TextAnchor};
 use crate::export::figure::text::FontWeight;
+use crate::export::figure::{Screen, page};
 use crate::sunlight::SkyRaster;
-use crate::view::SkyProjection;
+use crate::view::{SkyPicture, SkyProjection};
 
 /// The style of all labels within a chart.
 const LABEL: LetterStyle = LetterStyle { size: 27.0, weight: FontWeight::Bold, colour: INK };
@@ -59,4 +60,31 @@ fn head(block: &mut Block, chart: &SkyChart) {
     };
     block.text(x, y, TextAnchor::Start, LetterStyle::HEAD, name);
     block.text(x, y + LetterStyle::FINE.leading(), TextAnchor::Start, LetterStyle::FINE, what);
+}
+
+/// The width and the height of a card's picture, and the margin around its disc: pixels.
+const CARD: u32 = 580;
+const CARD_MARGIN: u32 = 50;
+
+/// The picture of which a card needs a raster.
+pub fn card_picture() -> SkyPicture {
+    SkyPicture::stereographic(CARD - 2 * CARD_MARGIN)
+}
+
+/// The stereographic chart alone, for a card on a screen: without months, sundial and times.
+///
+/// # Errors
+/// [`ExportError::Encode`] where it cannot be drawn.
+pub fn sky_card(shown: &SkyContext, raster: &SkyRaster) -> Result<Screen, ExportError> {
+    const SMALL: LetterStyle = LetterStyle { size: 21.0, ..LABEL };
+    let chart = SkyChart::small([f64::from(CARD_MARGIN); 2], raster);
+    let mut block = Block::default();
+    chart.ground(&mut block, shown.colours);
+    chart.ways(&mut block, shown);
+    chart.rim(&mut block);
+    let mut labels = Labels::new((CARD, CARD), SMALL, 0.0);
+    chart.avoid(&mut labels, shown);
+    chart.mark(&mut labels, shown);
+    labels.draw(&mut block);
+    Ok(Screen { width: CARD, height: CARD, pixels: page::part(&block, (CARD, CARD))? })
 }

@@ -11,7 +11,7 @@ impl SkyChart<'_> {
     /// The sun's ways, hours, and what the point sees of the requested days.
     pub(super) fn ways(&self, block: &mut Block, shown: &SkyContext) {
         let lines = shown.lines;
-        for hour in &lines.solar_hours {
+        for hour in lines.solar_hours.iter().filter(|_| !self.is_small()) {
             self.stroke(block, &self.hours(&hour.runs), 2.0, SUNDIAL, Some("9 7"));
         }
         for hour in &lines.clock_hours {
