@@ -1,4 +1,4 @@
-//! Reads points from a CSV table whose first line names the columns.
+//! Points from a table: CSV whose first line names its columns.
 
 use super::csv_lines::{CsvLines, text_of};
 use super::error::{FieldLocation, SiteError};
@@ -10,36 +10,34 @@ use glam::DVec3;
 use rustc_hash::FxHashSet;
 use std::path::Path;
 
-/// The largest table, bytes.
-const MOST_BYTES: u64 = 64 << 20;
-
-/// The columns; the last three may be absent.
+/// The columns, the last three of which may be absent.
 const COLUMNS: [&str; 7] = ["name", "x", "y", "z", "nx", "ny", "nz"];
 
-/// The most points of a request.
+/// No more points are asked at once.
 pub(super) const MOST_PROBES: usize = 100_000;
 
-/// A normal as a unit vector.
+/// A normal's direction, whatever its length.
 pub(super) fn unit(normal: [f64; 3], at: impl Fn() -> FieldLocation) -> Result<DVec3, SiteError> {
     let normal = DVec3::from_array(normal);
-    // Scaled near 1 first, so that no square overflows.
+    // Brought near 1 first, so that no square overflows.
     let unit = (normal / normal.abs().max_element()).normalize();
     if unit.is_finite() {
         return Ok(unit);
     }
-    let what = format!("{normal} is not a direction");
+    let what = format!("{normal} is no direction");
     Err(refuse(at(), message![what; "write one of any length but 0, for example [0, -1, 0]"]))
 }
 
-/// Reads the points of a file.
+/// The points of a file.
 ///
 /// # Errors
-/// A file that cannot be read, or the first line that is wrong.
+/// What cannot be read, and the first line that is wrong.
 pub(super) fn read(path: &Path) -> Result<Vec<Probe>, SiteError> {
     let file = path.display().to_string();
     points(&file, &text_of(path)?)
 }
 
+/// The points of a table's text.
 fn points(file: &str, text: &str) -> Result<Vec<Probe>, SiteError> {
     let at =
         |line: usize| FieldLocation::Key { file: file.to_owned(), table: format!("line {line}"), key: String::new() };
@@ -66,7 +64,7 @@ fn points(file: &str, text: &str) -> Result<Vec<Probe>, SiteError> {
         let probe = point(&fields, probes.len() + 1, &at(line))?;
         if !names.insert(composed(&probe.name).into_owned()) {
             let what = format!("\"{}\" is the name of another point, too", probe.name);
-            return Err(refuse(at(line), message![what; "give each its own name"]));
+            return Err(refuse(at(line), message![what; "name each otherwise"]));
         }
         if probes.len() == MOST_PROBES {
             return Err(refuse(
@@ -85,11 +83,12 @@ fn points(file: &str, text: &str) -> Result<Vec<Probe>, SiteError> {
     Ok(probes)
 }
 
+/// The point of a line.
 fn point(fields: &[String], number: usize, at: &FieldLocation) -> Result<Probe, SiteError> {
     let number_of = |column: usize| {
         let text = fields[column].trim();
         text.parse::<f64>().ok().filter(|number| number.is_finite()).ok_or_else(|| {
-            let what = format!("{} is \"{text}\", which is not a number", COLUMNS[column]);
+            let what = format!("{} is \"{text}\" and no number", COLUMNS[column]);
             refuse(at.clone(), message![what; "write metres, for example 12.5"])
         })
     };
@@ -104,44 +103,4 @@ fn point(fields: &[String], number: usize, at: &FieldLocation) -> Result<Probe, 
     let point = triple(1)?;
     let normal = if is_free { None } else { Some(unit(triple(4)?.to_array(), || at.clone())?) };
     Ok(Probe { name, point, normal })
-}
-
-/// The lines of a table as defined in RFC 4180: a field in quotes may contain commas, line breaks, and doubled quotes.
-struct TableLines<'a> {
-    rest: &'a str,
-    line: usize,
-}
-
-impl TableLines<'_> {
-    /// The next line's number and fields; `None` for the fields if a quote is not closed.
-    fn next(&mut self) -> Option<(usize, Option<Vec<String>>)> {
-        if self.rest.is_empty() {
-            return None;
-        }
-        let first = self.line;
-        let (mut fields, mut field, mut is_quoted) = (Vec::new(), String::new(), false);
-        let mut letters = self.rest.char_indices().peekable();
-        while let Some((at, letter)) = letters.next() {
-            self.line += usize::from(letter == '\n');
-            match letter {
-                '"' if is_quoted && letters.next_if(|(_, next)| *next == '"').is_some() => field.push('"'),
-                '"' if is_quoted => is_quoted = false,
-                '"' if field.trim().is_empty() => {
-                    field.clear();
-                    is_quoted = true;
-                }
-                ',' if !is_quoted => fields.push(std::mem::take(&mut field)),
-                '\r' if !is_quoted => {}
-                '\n' if !is_quoted => {
-                    fields.push(field);
-                    self.rest = &self.rest[at + 1..];
-                    return Some((first, Some(fields)));
-                }
-                letter => field.push(letter),
-            }
-        }
-        self.rest = "";
-        fields.push(field);
-        Some((first, (!is_quoted).then_some(fields)))
-    }
 }

@@ -112,17 +112,6 @@ fn with_laid(asked: &ProbeSite) -> (Vec<Probe>, usize) {
     (probes, doubtful)
 }
 
-/// How open the surroundings of a point are: the lengths of rays ahead, to both sides, up and down, each limited to the
-/// width of a street.
-fn openness(rays: &RayCaster, point: DVec3, normal: Option<DVec3>) -> f64 {
-    const FAR_M: f64 = 50.0;
-    let Some(normal) = normal else { return 0.0 };
-    let (across, along) = normal.any_orthonormal_pair();
-    let tilted = [across, -across, along, -along].map(|side| (normal + side).normalize());
-    let seen = |direction: DVec3| rays.first_hit(point, direction).map_or(FAR_M, |(_, away)| away.min(FAR_M));
-    tilted.into_iter().chain([normal]).map(seen).sum()
-}
-
 /// The air that refracts the sun's light, if refraction is on.
 pub(super) fn air(asked: &ProbeSite) -> Option<Air> {
     asked.refraction.then(|| Air::standard(asked.place.elevation_m))

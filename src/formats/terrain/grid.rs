@@ -48,15 +48,9 @@ impl HeightGrid {
         at.extend(self.height(column, row).into())
     }
 
-    /// The spacing of the samples, for a message.
-    pub(super) fn spacing(&self, is_of_map: bool) -> String {
-        let [across, down] = self.steps.map(|step| step.length());
-        let unit = match is_of_map {
-            // probably degrees
-            true if across.max(down) < 0.01 => "units of its map",
-            _ => "m",
-        };
-        let [across, down] = [across, down].map(rounded);
+    /// The spacing of the samples, for a message; `unit` is that of the file's coordinates.
+    pub(super) fn spacing(&self, unit: &str) -> String {
+        let [across, down] = self.steps.map(|step| rounded(step.length()));
         if across == down { format!("{across} {unit} apart") } else { format!("{across} × {down} {unit} apart") }
     }
 

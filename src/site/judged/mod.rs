@@ -16,4 +16,5 @@ mod rings;
 mod rooms;
 mod windows;
 
+pub use load::load_judged;
 pub use request::{AreaSurface, JudgedArea, JudgedFacade, JudgedPlot, JudgedSite, JudgedState, JudgedWindow, PlotSide};
