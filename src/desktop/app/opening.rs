@@ -72,6 +72,7 @@ impl App {
             before: None,
             probing: None,
             sunlight: None,
+            export_notes: Vec::new(),
             clicked: None,
             project,
         });
@@ -131,6 +132,7 @@ impl Open {
             (self.sunlight, self.probing, self.clicked) = (None, None, None);
         }
         (self.project, self.number) = (project, number);
+        self.export_notes.clear();
         self.result = self.result.take().filter(|result| result.lies_on(&self.project.site));
         // another scale would leave the eye inside the model, or out of sight of it
         if !(0.5..=2.0).contains(&grown) {

@@ -20,6 +20,7 @@ use crate::desktop::work::loading::{LoadJob, LoadRequest};
 use crate::export::figure::Colours;
 use crate::formats::ModelReader;
 use crate::gpu::{Gpu, readback};
+use crate::message::Message;
 use crate::sunlight::Sunlight;
 use eframe::egui;
 use eframe::egui_wgpu::RenderState;
@@ -57,6 +58,8 @@ pub(in crate::desktop) struct Open {
     pub(in crate::desktop) probing: Option<Work<Sunlight>>,
     /// The intervals in which a point lies in the sun.
     pub(in crate::desktop) sunlight: Option<Sunlight>,
+    /// What the last export noted, as long as the site is the one that was exported.
+    pub(in crate::desktop) export_notes: Vec<Message>,
     /// The point that was clicked.
     pub(in crate::desktop) clicked: Option<PickedPoint>,
 }
