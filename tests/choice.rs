@@ -57,6 +57,9 @@ fn the_table_agrees_with_itself() {
         assert!(row.check(Finder::Auto, &set, Engine::Auto, Subject::Top).is_ok(), "{}", row.word);
         assert_eq!(row.settings.is_empty(), set == Settings::NONE, "{}", row.word);
     }
+    for row in TABLE {
+        assert_eq!(row.on_patches.is_some(), row.draws(Engine::Auto, Subject::Patches), "{}", row.word);
+    }
     // what draws in both ways is told apart in verify by the machine alone, and ray casting is the truth
     let truths: Vec<_> = TABLE.iter().filter(|row| row.promise == Promise::Same).map(|row| row.method).collect();
     assert_eq!(truths, [Method::RayCast]);

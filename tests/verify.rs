@@ -7,16 +7,20 @@ use glam::{DVec3, dvec3};
 use gnomon::choice::{Engine, Method, Promise, Receivers, Settings, TABLE, Truth};
 use gnomon::export::verify as told;
 use gnomon::mesh::Mesh;
+use gnomon::mesh::patches::Patches;
 use gnomon::profile::Provenance;
 use gnomon::shadow::ray_cast::RayCast;
+use gnomon::shadow::soft_texture::{Choice, Fill, Painter, SoftTexture};
 use gnomon::shadow::{DrawnMask, ShadowError, Technique};
 use gnomon::site::{Overrides, Site};
 use gnomon::study::verify::{Trial, hold, spread};
+use gnomon::study::verify_surfaces::{SurfaceTrial, SurfaceTrials};
 use gnomon::study::{Event, StudyError};
 use gnomon::verification::{Difference, Edges, HoursDifference, Verification, is_edge_cell};
 use gnomon::view::{Decider, FragmentCounts, Mask, Surface, View};
 use serde_json::Value;
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 /// A mask as a picture: `#` is shadow, `+` a penumbra's darker half, `-` its lighter half.
 fn mask(rows: &[&str]) -> Mask {
@@ -155,7 +159,7 @@ fn trial(site: &Site, promise: Promise, cells: Vec<usize>, decided: Decider) -> 
 }
 
 fn held(site: &Site, trials: Vec<Trial>) -> Verification {
-    hold(site, trials, &mut |_| ControlFlow::Continue(())).unwrap()
+    hold(site, trials, None, &mut |_| ControlFlow::Continue(())).unwrap()
 }
 
 #[test]
@@ -197,11 +201,57 @@ fn what_a_map_missed_counts_apart() {
     assert_eq!((by_map.rows[1].furthest, by_map.rows[1].hours_off.unwrap().largest), (None, 4.0));
 }
 
+/// One texel of a façade that is turned over counts once an instant, and is seen.
+#[test]
+fn a_wrong_texel_of_a_facade_is_seen() {
+    let site = load(SITE, &asked()).unwrap();
+    let with = |wrong: Option<usize>| {
+        let mut surfaces = SurfaceTrials::without_trials(&site).unwrap().expect("façades");
+        let patches = Arc::new(Patches::of(&site.mesh, &site.receives, site.grid.cell, site.grid.cells()));
+        let casters = site.mesh.of_components(&site.casts);
+        let rays = SoftTexture::new(casters, Arc::clone(&patches), Painter::OnProcessor(Fill::Faces), Choice::Rays);
+        let mut rays = rays.unwrap();
+        let draw = Box::new(move |to_sun: DVec3| {
+            let mut seen = rays.seen(to_sun)?;
+            wrong.iter().for_each(|at| seen[*at] ^= 1);
+            Ok(seen)
+        });
+        let drawn = Provenance {
+            technique: Method::SoftTexture,
+            finder: None,
+            engine: Engine::Cpu,
+            adapter: None,
+            settings: Settings::NONE,
+            resolution_secs: 0,
+        };
+        surfaces.add(SurfaceTrial { drawn, promise: Promise::Exact, draw });
+        let roof = patches.list.iter().max_by(|one, other| one.plane.z.total_cmp(&other.plane.z)).unwrap();
+        (
+            hold(&site, Vec::new(), Some(surfaces), &mut |_| ControlFlow::Continue(())).unwrap(),
+            roof.texels.start as usize,
+        )
+    };
+    let (right, roof) = with(None);
+    let row = &right.rows[0];
+    assert!(row.on_surfaces && row.difference.edge_cells > 0 && row.difference.differ() == 0);
+    assert_eq!(row.difference.cells(), (right.surfaces.unwrap().texels * right.instants) as u64);
+    assert_eq!((told::failure(&right), row.furthest, row.share_off), (None, None, 0.0));
+    assert_eq!(row.hours_off, Some(HoursDifference { largest: 0.0, mean: 0.0 }));
+    // on the roof no shadow falls
+    let (wrong, _) = with(Some(roof));
+    let row = &wrong.rows[0];
+    assert_eq!((row.difference.edge_differ, row.difference.other_differ, row.thin), (0, right.instants as u64, 0));
+    assert_eq!(row.hours_off.unwrap().largest, 4.0);
+    let failure = told::failure(&wrong).unwrap();
+    assert!(failure.starts_with("soft-texture on surfaces does not hold: 0 of "), "{failure}");
+    assert!(told::table(&wrong, &site).contains("FAILS"));
+}
+
 #[test]
 fn interruption_is_heard_between_instants() {
     let site = load(SITE, &asked()).unwrap();
     let mut drawn = 0;
-    let stopped = hold(&site, Vec::new(), &mut |event| {
+    let stopped = hold(&site, Vec::new(), None, &mut |event| {
         drawn += usize::from(matches!(event, Event::Drawn { .. }));
         if drawn == 2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
@@ -216,10 +266,11 @@ fn a_box_is_verified_as_a_table_and_as_json() {
     {
         assert!(table.contains(word), "{table}");
     }
-    for row in ["stencil", "projected", "  on gpu", "hybrid", "shadow-map", "smoothie", "ray-cast"] {
+    for row in ["stencil", "projected", "hybrid", "shadow-map", "smoothie", "soft-texture", "ray-cast"] {
         assert_eq!(table.lines().filter(|line| line.starts_with(&format!("{row} "))).count(), 1, "{table}");
     }
-    assert_eq!(table.matches("  holds\n").count(), 4, "{table}");
+    assert_eq!(table.lines().filter(|line| line.starts_with("  on gpu ")).count(), 2, "{table}");
+    assert_eq!(table.matches("  holds\n").count(), 6, "{table}");
     assert!(
         table.contains(", silhouettes hextree\nmaps of 2048 × 2048 texels, shadow-map filtered fast-2x2\n"),
         "{table}"
@@ -243,13 +294,20 @@ fn a_box_is_verified_as_a_table_and_as_json() {
     assert_eq!((&row("stencil")["against"], &row("stencil")["silhouette"]), (&"centre".into(), &"brute".into()));
     assert_eq!((&row("smoothie")["against"], &row("smoothie")["holds"]), (&"disc".into(), &Value::Null));
     assert_eq!((&row("ray-cast")["cells"], &row("ray-cast")["holds"]), (&200.into(), &true.into()));
-    // every technique is compared or named
-    assert_eq!(json["draw_no_plan"], serde_json::json!(["soft-texture"]));
+    // every technique is compared, on each machine where it draws
     for method in TABLE.iter().filter(|method| method.method != Method::Auto) {
-        let is_compared = rows.iter().any(|row| row["technique"] == method.word);
-        assert_ne!(is_compared, method.word == "soft-texture", "{}", method.word);
+        assert!(rows.iter().any(|row| row["technique"] == method.word), "{}", method.word);
     }
-    assert!(table.ends_with("\nleft out, drawing no plan: soft-texture\n"), "{table}");
+    let on_surfaces: Vec<_> = rows.iter().filter(|row| row["compared_on"] == "surfaces").collect();
+    for (row, engine) in on_surfaces.iter().zip(["cpu", "gpu"]) {
+        assert_eq!((&row["technique"], &row["engine"]), (&"soft-texture".into(), &engine.into()));
+        assert_eq!((&row["holds"], &row["against"]), (&true.into(), &"centre".into()));
+        assert_eq!(row["cells"], json["surfaces"]["texels"]);
+    }
+    assert_eq!((on_surfaces.len(), on_surfaces[0]["edge_differ"].as_u64()), (2, Some(0)));
+    assert!(json["surfaces"]["cell"].as_f64().unwrap() >= 1.0 && json["surfaces"]["edge_share_bound"] == 0.01);
+    let legend = table.lines().last().unwrap();
+    assert!(legend.starts_with("soft-texture: compared on façades and roofs, in "), "{table}");
     // one instant has no weight
     assert_eq!((&row("hybrid")["map_missed"], &row("hybrid")["mean_hours_off"]), (&0.into(), &Value::Null));
 }
@@ -293,7 +351,7 @@ fn what_cannot_be_verified_is_told() {
         let text = format!("{PLACE}[[model]]\npath = \"tower.glb\"\n{more}");
         std::fs::write(path.join(format!("{name}.toml")), text).unwrap();
         let said = done(path, &format!("verify {name}.toml --at 2026-09-18T11:00 --size 64 --sun-samples 2 --quiet"));
-        assert_eq!(said.matches("  holds\n").count(), 3, "{said}");
+        assert_eq!(said.matches("  holds\n").count(), 5, "{said}");
     }
 }
 

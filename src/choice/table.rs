@@ -149,6 +149,8 @@ pub struct MethodRow {
     pub against: Truth,
     /// What `verify` demands of it.
     pub promise: Promise,
+    /// The same on façades and roofs, against rays to the sun's centre; `None` where it draws none.
+    pub on_patches: Option<Promise>,
 }
 
 /// The enum of techniques, with the table and the words, from one row each.
@@ -192,6 +194,7 @@ techniques! {
         blends_float32: false,
         against: Truth::Centre,
         promise: Promise::Exact,
+        on_patches: Some(Promise::Exact),
     }
     /// Stencil shadow volumes.
     Stencil: "stencil", {
@@ -208,6 +211,7 @@ techniques! {
         blends_float32: false,
         against: Truth::Centre,
         promise: Promise::Exact,
+        on_patches: None,
     }
     /// Faces projected onto the ground.
     Projected: "projected", {
@@ -224,6 +228,7 @@ techniques! {
         blends_float32: false,
         against: Truth::Centre,
         promise: Promise::Exact,
+        on_patches: None,
     }
     /// A depth map drawn from the sun.
     ShadowMap: "shadow-map", {
@@ -240,6 +245,7 @@ techniques! {
         blends_float32: false,
         against: Truth::Centre,
         promise: Promise::Near,
+        on_patches: None,
     }
     /// A depth map, and volumes where it cannot tell.
     Hybrid: "hybrid", {
@@ -256,6 +262,7 @@ techniques! {
         blends_float32: false,
         against: Truth::Centre,
         promise: Promise::ExactButForMap,
+        on_patches: None,
     }
     /// A depth map with soft edges.
     Smoothie: "smoothie", {
@@ -272,6 +279,7 @@ techniques! {
         blends_float32: true,
         against: Truth::Disc,
         promise: Promise::Near,
+        on_patches: None,
     }
     /// Registered hard shadows on flat patches, added up.
     SoftTexture: "soft-texture", {
@@ -288,6 +296,7 @@ techniques! {
         blends_float32: false,
         against: Truth::Disc,
         promise: Promise::Near,
+        on_patches: Some(Promise::Exact),
     }
     /// Ray casting.
     RayCast: "ray-cast", {
@@ -304,6 +313,7 @@ techniques! {
         blends_float32: false,
         against: Truth::EveryFace,
         promise: Promise::Same,
+        on_patches: Some(Promise::Same),
     }
 }
 

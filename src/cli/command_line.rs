@@ -51,8 +51,8 @@ pub(super) enum Command {
     Convert(ConvertArgs),
     /// The shadow volumes at one instant as solids down to the ground, in a .glb for other programs
     Volumes(VolumesArgs),
-    /// Every technique that draws a plan against ray casting on this site: how many cells differ, how far, by how many
-    /// hours
+    /// Every technique against ray casting on this site, on the plan or on façades and roofs: how many cells differ, how far,
+    /// by how many hours
     #[command(mut_arg("size", |size| size.help("Cells along the longer side [default: 512]")))]
     Verify(VerifyArgs),
     /// When points lie in the sun, on a day or over a range of dates: to the second, and what blocks in between

@@ -42,7 +42,7 @@ pub fn comparison(
     let open = sink.open(&names(), None)?;
     watch.lap("load");
     note(open.note(), on_event)?;
-    note_letters([&pair.names[0], &pair.names[1], &pair.after.place.name].map(String::as_str), on_event)?;
+    note_drawn_letters(pair, on_event)?;
     let (outcome, stores) = find(pair, None, sink.folder(), false, on_event)?;
     watch.lap("shadows");
     let kept = || stores.iter().find_map(StudyStore::kept);
@@ -123,7 +123,13 @@ pub fn write_comparison(
 ) -> Result<ComparisonAnswer, DeliverError> {
     let open = sink.open(&names(), None)?;
     note(open.note(), on_event)?;
+    note_drawn_letters(pair, on_event)?;
     write(pair, outcome, watch, &open, &mut |stage| tell(on_event, Event::Stage(stage)))
+}
+
+/// Notes the letters in the drawing that no font has.
+fn note_drawn_letters(pair: &Pair, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+    note_letters([&pair.names[0], &pair.names[1], &pair.after.place.name].map(String::as_str), on_event)
 }
 
 /// The names of the files.

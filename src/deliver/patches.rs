@@ -60,9 +60,7 @@ pub fn patches(
     let mut watch = asked.watch.clone();
     watch.lap("load");
     note(open.note(), on_event)?;
-    if asked.drawing {
-        note_letters([site.place.name.as_str()], on_event)?;
-    }
+    note_letters(asked.drawing.then_some(site.place.name.as_str()), on_event)?;
     let (outcome, store) = find(site, sink.folder(), Beside::Studies(&[]), on_event)?;
     watch.laps(outcome.timings.clone());
     let asked = PatchesRequest { watch, ..asked.clone() };
@@ -121,6 +119,7 @@ pub fn write_patches(
 ) -> Result<PatchesAnswer, DeliverError> {
     let open = sink.open(&asked.names(), None)?;
     note(open.note(), on_event)?;
+    note_letters(asked.drawing.then_some(site.place.name.as_str()), on_event)?;
     write(site, outcome, asked, &open, &mut |stage| tell(on_event, Event::Stage(stage)))
 }
 

@@ -1,7 +1,7 @@
 //! What `gnomon verify` says: JSON, and a table with a legend.
 
 use super::{ExportError, report};
-use crate::choice::{Engine, Finder, Method, MethodRow, Promise, Subject, TABLE, Truth};
+use crate::choice::{Engine, Finder, Method, Promise, Truth};
 use crate::message::{Field, Message, Piece, Words, message, pieces};
 use crate::site::Site;
 use crate::sun::{Place, SunTrack};
@@ -32,14 +32,22 @@ struct VerifyReport<'a> {
     clean: bool,
     edge_share_bound: f64,
     holds: bool,
+    surfaces: Option<SurfacesReport>,
     techniques: Vec<RowReport<'a>>,
-    draw_no_plan: Vec<&'static str>,
     notes: Vec<String>,
+}
+
+#[derive(Serialize)]
+struct SurfacesReport {
+    cell: f64,
+    texels: usize,
+    edge_share_bound: f64,
 }
 
 #[derive(Serialize)]
 struct RowReport<'a> {
     technique: &'static str,
+    compared_on: &'static str,
     silhouette: Option<&'static str>,
     engine: &'static str,
     adapter: Option<&'a str>,
@@ -67,7 +75,10 @@ struct RowReport<'a> {
 /// - `clean`: every part that casts is closed and well wound; `edge_share_bound`: the part of the edge cells of an exact
 ///   technique that may therefore differ (of other cells, one in 100,000);
 /// - `holds`: whether every technique that decides does;
-/// - `techniques`, each with what drew it and `against` (`centre`: ray casting to the sun's centre, `disc`: to the points
+/// - `surfaces`: the side of a texel (`cell`, metres) and how many `texels` techniques were compared on that draw façades and
+///   roofs, with an `edge_share_bound` of their own; null where nothing has any;
+/// - `techniques`, each with what drew it, what it was `compared_on` (`plan`, or `surfaces`, where cells are texels), and
+///   `against` (`centre`: ray casting to the sun's centre, `disc`: to the points
 ///   of its disc, `every-face`: rays without the trees, at some cells), the `cells` compared, how many of them are
 ///   `edge_cells`; how many of these and of the others differ by more than half the sun (`edge_differ`,
 ///   `other_differ`), counted apart where they lie beside what is thinner than a cell (`thin_differ`) and where the
@@ -75,14 +86,13 @@ struct RowReport<'a> {
 ///   (`furthest_cells`); by how much the share of the sun, 0 to 1, and the hours of the profile are off
 ///   (`mean_share_off`, `largest_hours_off`, `mean_hours_off`); `secs_per_instant`; and `holds`, null where the technique
 ///   decides nothing;
-/// - `draw_no_plan`: the techniques that are left out, as there is no plan of theirs to compare;
 /// - `notes` as in `profile.json`: those given.
 ///
 /// # Errors
 /// [`ExportError::Encode`] where the encoder refuses.
 pub fn json(verification: &Verification, site: &Site, notes: &[Message]) -> Result<String, ExportError> {
     let Site { place, track, receivers, ground, .. } = site;
-    let Verification { grid, instants, clean, edge_share, sun_samples, disc_secs, rows } = verification;
+    let Verification { grid, instants, clean, edge_share, sun_samples, disc_secs, surfaces, rows } = verification;
     report::json(&VerifyReport {
         gnomon: env!("CARGO_PKG_VERSION"),
         place: report::place_report(place),
@@ -101,22 +111,20 @@ pub fn json(verification: &Verification, site: &Site, notes: &[Message]) -> Resu
         clean: *clean,
         edge_share_bound: *edge_share,
         holds: verification.failed().next().is_none(),
+        surfaces: surfaces.map(|surfaces| SurfacesReport {
+            cell: surfaces.cell,
+            texels: surfaces.texels,
+            edge_share_bound: surfaces.edge_share,
+        }),
         techniques: rows.iter().map(|row| row_report(row, verification.row_holds(row))).collect(),
-        draw_no_plan: draw_no_plan(),
         notes: report::said(notes, site.words),
     })
-}
-
-/// The words of the techniques that draw no plan, and so are not compared.
-fn draw_no_plan() -> Vec<&'static str> {
-    const PLANS: [Subject; 3] = [Subject::Top, Subject::Ground, Subject::Terrain];
-    let draws = |row: &MethodRow| PLANS.iter().any(|plan| row.draws(Engine::Auto, *plan));
-    TABLE.iter().filter(|row| row.method != Method::Auto && !draws(row)).map(|row| row.word).collect()
 }
 
 fn row_report(row: &Row, holds: Option<bool>) -> RowReport<'_> {
     RowReport {
         technique: row.drawn.technique.word(),
+        compared_on: if row.on_surfaces { "surfaces" } else { "plan" },
         silhouette: row.drawn.finder.map(Finder::word),
         engine: row.drawn.engine.word(),
         adapter: row.drawn.adapter.as_deref(),
@@ -223,7 +231,7 @@ const HEADINGS: [[&str; 13]; 2] = [
 ];
 
 /// The widths of the columns; the first two are aligned left.
-const WIDTHS: [usize; 13] = [10, 7, 9, 9, 7, 8, 6, 6, 8, 7, 6, 7, 9];
+const WIDTHS: [usize; 13] = [12, 7, 9, 9, 7, 8, 6, 6, 8, 7, 6, 7, 9];
 
 fn columns(table: &mut String, names: [&str; 13]) {
     let cells = names.iter().zip(WIDTHS).enumerate().map(|(at, (name, width))| match at {
@@ -243,7 +251,7 @@ fn line(table: &mut String, row: &Row, holds: Option<bool>) {
     // Writing to a String cannot fail.
     let _ = writeln!(
         table,
-        "{:<10} {:<7} {:>9} {:>9} {:>7} {:>8.3} {:>6} {:>6} {:>8} {:>7.3} {:>6} {:>7} {:>9.4}{}",
+        "{:<12} {:<7} {:>9} {:>9} {:>7} {:>8.3} {:>6} {:>6} {:>8} {:>7.3} {:>6} {:>7} {:>9.4}{}",
         if is_on_gpu_too(row) { "  on gpu" } else { row.drawn.technique.word() },
         match row.against {
             Truth::Centre => "centre",
@@ -283,14 +291,13 @@ fn legend(table: &mut String, verification: &Verification, words: &dyn Words) {
          \u{20}           texels; not among the cells that differ, but in the share and the hours\n\
          furthest: how far the furthest cell that differs lies from a shadow edge, in cells: 1 is right at the edge\n\
          share off: of the sun, in the mean of all cells; h off: hours of the profile, in the worst cell and in the mean\n\
-         {}\n\
-         left out, drawing no plan: {}",
+         {}{}",
         match rows.iter().map(|row| row.thin).max().unwrap_or(0) {
             0 => String::new(),
             thin => format!(", without up to {thin} beside what is thinner than a cell"),
         },
         bound(verification, words),
-        draw_no_plan().join(", "),
+        on_surfaces(verification),
     );
 }
 
@@ -307,6 +314,24 @@ fn bound(verification: &Verification, words: &dyn Words) -> String {
     message![bound, "\n         (as not every part that casts is clean", more, ")"].in_words(words)
 }
 
+/// Which techniques were compared on façades and roofs, and in how many texels.
+fn on_surfaces(verification: &Verification) -> String {
+    let Some(surfaces) = verification.surfaces else {
+        return "\nno technique was compared on façades and roofs: nothing flat receives".to_owned();
+    };
+    let mut words: Vec<_> =
+        verification.rows.iter().filter(|row| row.on_surfaces).map(|row| row.drawn.technique).collect();
+    words.dedup();
+    let words: Vec<_> = words.into_iter().map(Method::word).collect();
+    format!(
+        "\n{}: compared on façades and roofs, in {} texels of {:.3} m; at edges at most {}% of them differ",
+        words.join(", "),
+        surfaces.texels,
+        surfaces.cell,
+        100.0 * surfaces.edge_share
+    )
+}
+
 /// Whether a row is of a technique that draws on both machines, and follows the processor's row.
 fn is_on_gpu_too(row: &Row) -> bool {
     row.drawn.engine == Engine::Gpu && !row.drawn.technique.row().on_cpu.is_empty()
@@ -317,10 +342,14 @@ pub fn failure(verification: &Verification) -> Option<String> {
     let told = |row: &Row| {
         let most = match row.promise {
             Promise::Same => "none may".to_owned(),
-            _ => format!("at most {}% of the former may, and one in {OTHERS} others", 100.0 * verification.edge_share),
+            _ => format!(
+                "at most {}% of the former may, and one in {OTHERS} others",
+                100.0 * verification.edge_share_of(row)
+            ),
         };
         let machine = if is_on_gpu_too(row) { " on the gpu" } else { "" };
-        format!("{}{machine} does not hold: {}; {most}", row.drawn.technique, row.difference)
+        let on = if row.on_surfaces { " on surfaces" } else { "" };
+        format!("{}{machine}{on} does not hold: {}; {most}", row.drawn.technique, row.difference)
     };
     let failed: Vec<String> = verification.failed().map(told).collect();
     (!failed.is_empty()).then(|| failed.join("; "))

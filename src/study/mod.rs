@@ -39,6 +39,8 @@ mod tiled_study;
 mod tiles;
 #[doc(hidden)]
 pub mod verify;
+#[doc(hidden)]
+pub mod verify_surfaces;
 mod wants;
 
 pub(crate) use chooser::not_patches;

@@ -225,13 +225,18 @@ fn choice(site: &Site) -> Result<Choice, Misfit> {
     // both techniques that `auto` may choose use the same options
     let row = if method == Method::Auto { Method::SoftTexture.row() } else { method.row() };
     row.check(site.finder, &site.settings, site.engine, subject)?;
+    way_of(method)
+}
+
+/// How a technique judges patches.
+pub(super) fn way_of(method: Method) -> Result<Choice, Misfit> {
     match method {
         Method::Auto => Ok(Choice::Auto),
         Method::SoftTexture => Ok(Choice::Texture),
         Method::RayCast => Ok(Choice::Rays),
         // none of these judges patches; a technique that does has a line above
         Method::Stencil | Method::Projected | Method::ShadowMap | Method::Hybrid | Method::Smoothie => {
-            Err(Misfit::Technique { method, subject })
+            Err(Misfit::Technique { method, subject: Subject::Patches })
         }
     }
 }

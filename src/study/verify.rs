@@ -1,16 +1,20 @@
-//! Compares every technique that draws a plan with ray casting, so that users can see on their own site how far to
+//! Compares every technique with ray casting, on the plan or on façades and roofs, so that users can see on their own site how
+//! far to
 //! trust each one.
 //!
-//! [`verify`] makes the techniques, and [`hold`] compares them with the truth, instant by instant. At some cells, ray
+//! [`verify`] makes the techniques, and [`hold`] compares them with the truth, instant by instant; what draws no plan is
+//! compared in [`super::verify_surfaces`]. At some cells, ray
 //! casting with its trees is compared with ray casting against every face.
 
 use super::again::persist;
-use super::chooser::{not_patches, opened};
+use super::chooser::opened;
 use super::machine::Machine;
+use super::verify_surfaces::SurfaceTrials;
 use super::{Event, OnEvent, SiteView, StudyError, day_and_night, note_site, subject_of, tell, tiles};
-use crate::choice::{Engine, Method, MethodRow, Promise, Subject, TABLE, Truth};
+use crate::choice::{Engine, Method, MethodRow, Promise, Receivers, Subject, TABLE, Truth};
 use crate::gpu::Gpu;
 use crate::mesh::report;
+use crate::message::{Field, message};
 use crate::profile::Provenance;
 use crate::shadow::ray_cast::RayCast;
 use crate::shadow::{ShadowError, Technique};
@@ -46,20 +50,23 @@ pub struct Trial {
     pub technique: Box<dyn Technique>,
 }
 
-/// Compares every technique that draws a plan with ray casting, at the study's instants.
+/// Compares every technique with ray casting, at the study's instants.
 ///
 /// # Errors
 /// [`StudyError`]. A study that is all at night, or a machine without a graphics adapter, is refused before anything is
 /// drawn.
 pub fn verify(site: &Site, on_event: &mut OnEvent<'_>) -> Result<Verification, StudyError> {
-    not_patches(site)?;
+    if site.receivers == Receivers::Patches {
+        let message = message!["surfaces are compared beside the plan"; "take top or ground for that, or leave it out"];
+        return Err(StudyError::Conflict { field: Field::Receivers, message });
+    }
     by_day(site)?;
     note_site(site, on_event)?;
     // all techniques are wanted, so none may replace another
     persist(site, false, on_event, &mut |site, gpu, on_event| {
         let gpu = opened(gpu).map_err(|error| StudyError::NoVerification(error.why()))?;
         let trials = trials(&gpu, site, on_event)?;
-        hold(site, trials, on_event)
+        hold(site, trials, SurfaceTrials::new(site, &gpu)?, on_event)
     })
 }
 
@@ -97,11 +104,16 @@ fn held() -> Vec<&'static MethodRow> {
     rows
 }
 
-/// Compares techniques with the truth, and ray casting with itself.
+/// Compares techniques with the truth, and ray casting with itself; some of them on façades and roofs.
 ///
 /// # Errors
 /// As [`verify`].
-pub fn hold(site: &Site, trials: Vec<Trial>, on_event: &mut OnEvent<'_>) -> Result<Verification, StudyError> {
+pub fn hold(
+    site: &Site,
+    trials: Vec<Trial>,
+    mut surfaces: Option<SurfaceTrials>,
+    on_event: &mut OnEvent<'_>,
+) -> Result<Verification, StudyError> {
     let instants = by_day(site)?;
     let (day_secs, _) = day_and_night(&site.track);
     let sun_samples = site.settings.sun_samples.unwrap_or(SUN_SAMPLES);
@@ -125,6 +137,9 @@ pub fn hold(site: &Site, trials: Vec<Trial>, on_event: &mut OnEvent<'_>) -> Resu
         }
         let sampled = MOST_SAMPLED * index / count..MOST_SAMPLED * (index + 1) / count;
         without_trees(&centre, instant, &spread(&centre.mask, sampled), &mut trees);
+        if let Some(surfaces) = &mut surfaces {
+            surfaces.compare(instant)?;
+        }
         tell(on_event, Event::Drawn { index, count, time: instant.time, mask: None, bits: None })?;
     }
 
@@ -136,12 +151,23 @@ pub fn hold(site: &Site, trials: Vec<Trial>, on_event: &mut OnEvent<'_>) -> Resu
         let truth = if against == Truth::Disc { &disc } else { &centre };
         rows.push(tally.row(drawn, against, promise, (day_secs > 0).then_some(truth))?);
     }
+    let compared = surfaces.as_ref().map(SurfaceTrials::compared);
+    rows.extend(surfaces.into_iter().flat_map(|surfaces| surfaces.rows(day_secs > 0)));
     let trees = trees.row(cast, Truth::EveryFace, Promise::Same, None)?;
     rows.push(Row { secs: centre_secs, ..trees });
     let clean = report::components(&site.mesh).iter().zip(&site.casts).all(|(part, casts)| !casts || part.clean());
     let is_plane = subject_of(site, &View::Plan(site.grid)) == Subject::Ground;
     let edge_share = if clean && is_plane { EDGE_SHARE_CLEAN } else { EDGE_SHARE };
-    Ok(Verification { grid: site.grid, instants: count, clean, edge_share, sun_samples, disc_secs, rows })
+    Ok(Verification {
+        grid: site.grid,
+        instants: count,
+        clean,
+        edge_share,
+        sun_samples,
+        disc_secs,
+        surfaces: compared,
+        rows,
+    })
 }
 
 /// The instants by day.

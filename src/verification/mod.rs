@@ -27,18 +27,37 @@ pub struct Verification {
     pub sun_samples: u32,
     /// The time of ray casting to the disc, seconds per instant.
     pub disc_secs: f64,
+    /// The façades and roofs that were compared; `None` where nothing has any.
+    pub surfaces: Option<ComparedSurfaces>,
     /// One row per technique, ray casting last.
     pub rows: Vec<Row>,
+}
+
+/// Façades and roofs on which techniques were compared.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ComparedSurfaces {
+    /// A texel's side, metres.
+    pub cell: f64,
+    /// The number of texels.
+    pub texels: usize,
+    /// The share of the edge texels of an exact technique that may differ.
+    pub edge_share: f64,
 }
 
 impl Verification {
     /// Whether a row holds; `None` if the row decides nothing.
     pub fn row_holds(&self, row: &Row) -> Option<bool> {
         match row.promise {
-            Promise::Exact => Some(row.difference.holds(self.edge_share)),
+            Promise::Exact => Some(row.difference.holds(self.edge_share_of(row))),
             Promise::Same => Some(row.difference.differ() == 0),
             Promise::ExactButForMap | Promise::Near => None,
         }
+    }
+
+    /// The share of the edge cells of an exact technique that may differ where a row was compared.
+    pub fn edge_share_of(&self, row: &Row) -> f64 {
+        let of_surfaces = self.surfaces.filter(|_| row.on_surfaces);
+        of_surfaces.map_or(self.edge_share, |surfaces| surfaces.edge_share)
     }
 
     /// The rows that do not hold.
@@ -56,6 +75,8 @@ pub struct Row {
     pub against: Truth,
     /// What it promises.
     pub promise: Promise,
+    /// Whether it was compared on façades and roofs, texel by texel, and not on the plan.
+    pub on_surfaces: bool,
     /// The cells that differ: their share is off by more than half the sun.
     pub difference: Difference,
     /// The number of cells that differ beside what is thinner than a cell; they are not in `difference`.

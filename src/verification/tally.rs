@@ -96,6 +96,7 @@ impl Tally {
             drawn,
             against,
             promise,
+            on_surfaces: false,
             thin: self.thin,
             missed: (promise == Promise::ExactButForMap).then_some(self.missed),
             furthest: self.furthest,

@@ -240,7 +240,7 @@ fn what_patches_cannot_have_is_told() {
         ("profile . --receivers surfaces --technique smoothie", &["--technique"]),
         ("profile . --receivers surfaces --pcf none", &["--pcf"]),
         ("shadow . --at 2026-09-18T15:00 --receivers surfaces", &["--receivers", "profile"]),
-        ("verify . --receivers surfaces", &["--receivers", "profile"]),
+        ("verify . --receivers surfaces", &["--receivers", "beside the plan"]),
     ] {
         fails(path, options, 2, words);
     }

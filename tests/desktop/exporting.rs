@@ -247,6 +247,33 @@ fn drawing_is_that_of_the_command() {
     assert!(ours == theirs, "the drawing is another one");
 }
 
+/// An export's own notes stand with the others, as long as the site is the one that was exported.
+#[test]
+fn what_an_export_notes_is_shown() {
+    let (folder, site) = small_site();
+    // a letter that no font has
+    let text = std::fs::read_to_string(&site).unwrap().replace("Works", "Works \u{A4CF}");
+    std::fs::write(&site, text).unwrap();
+    let mut harness = window(Some(&site));
+    let noted = |harness: &Harness<'_, App>| {
+        harness.query_all_by_label_contains("no font has the letters \u{A4CF} of \"Works").count()
+    };
+    assert_eq!(noted(&harness), 0);
+    menu(&mut harness, "Export the drawing…");
+    answer(&mut harness, &folder.path().join("window.png"), "Write");
+    assert_eq!(noted(&harness), 1, "the drawing has a box for a letter");
+    click(&mut harness, "Find the hours");
+    settle(&mut harness);
+    for (entry, out) in [("Export the hours…", "hours"), ("Export the animation…", "day")] {
+        menu(&mut harness, entry);
+        answer(&mut harness, &folder.path().join(out), "Write");
+        assert_eq!(noted(&harness), 1, "said once, of the last export");
+    }
+    write(&mut harness, "step", "4h");
+    settle(&mut harness);
+    assert_eq!(noted(&harness), 0, "another site was exported");
+}
+
 /// A model is not replaced by what is made of it.
 #[test]
 fn nothing_is_exported_over_a_model() {

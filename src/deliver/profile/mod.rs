@@ -19,7 +19,7 @@ use super::{DeliverError, Folder, Sink, WrittenFiles};
 use crate::export::figure::Outline;
 use crate::profile::{Provenance, Statistics};
 use crate::site::Site;
-use crate::study::{Event, OnEvent, tell};
+use crate::study::{Event, OnEvent, StudyError, tell};
 use crate::view::Bits;
 use files::Pieces;
 use request::mask_path;
@@ -58,9 +58,7 @@ pub fn profile(
     asked.lines.iter().try_for_each(|lines| lines.check(&site.track))?;
     let open = sink.open(&asked.names(), asked.mask_files(site))?;
     note(open.note(), on_event)?;
-    if asked.drawing || !asked.lines.is_empty() {
-        note_letters([site.place.name.as_str()], on_event)?;
-    }
+    note_drawn_letters(site, asked, on_event)?;
     watch.lap("load");
 
     let (hours, mut keeping) = hours::find(site, asked, sink.folder(), Beside::Studies(&[]), on_event)?;
@@ -88,6 +86,12 @@ pub fn profile(
         let _ = note(beyond, on_event);
     }
     Ok(ProfileAnswer { written, masks, report, drawn, statistics, range })
+}
+
+/// Notes the letters that no font has, if anything is drawn.
+fn note_drawn_letters(site: &Site, asked: &ProfileRequest<'_>, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+    let is_drawn = asked.drawing || !asked.lines.is_empty();
+    note_letters(is_drawn.then_some(site.place.name.as_str()), on_event)
 }
 
 /// Finds hours that are to be shown, all of them in memory; with bits, each instant's shadow too.
@@ -136,6 +140,7 @@ pub fn write_hours(
     asked.lines.iter().try_for_each(|lines| lines.check(&site.track))?;
     let open = sink.open(&asked.names(), None)?;
     note(open.note(), on_event)?;
+    note_drawn_letters(site, asked, on_event)?;
     let mut stage = |stage| tell(on_event, Event::Stage(stage));
     let Pieces { ready, report, range } = files::make(site, hours, asked, &open, &mut watch, &mut stage)?;
     let (drawn, statistics) = (hours.drawn.clone(), hours.statistics);

@@ -132,6 +132,7 @@ impl Open {
             (self.sunlight, self.sky, self.probing, self.clicked) = (None, None, None, None);
         }
         (self.project, self.number) = (project, number);
+        self.export_notes.clear();
         self.result = self.result.take().filter(|result| result.lies_on(&self.project.site));
         // another scale would leave the eye inside the model, or out of sight of it
         if !(0.5..=2.0).contains(&grown) {

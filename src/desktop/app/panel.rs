@@ -7,6 +7,7 @@ use crate::desktop::app::study;
 use crate::desktop::parts::components;
 use crate::desktop::parts::fields::{NumberField, TypedText};
 use crate::desktop::parts::theme;
+use crate::desktop::results::StudyResult;
 use crate::desktop::state::bare_model::NORTH;
 use crate::desktop::state::eye::Stand;
 use crate::desktop::state::technique;
@@ -50,13 +51,15 @@ pub(in crate::desktop) fn show(app: &mut App, ui: &mut Ui) {
     });
 }
 
-/// The command's notes on the models, also on those before if two states are compared, and on what was found.
+/// The command's notes on the models, also on those before if two states are compared, on what was found, and on what was
+/// exported last.
 fn notes(app: &App) -> Vec<&Message> {
     let Some(open) = &app.open else { return Vec::new() };
     let mut notes: Vec<&Message> = open.project.site.notes.iter().collect();
-    let Some(result) = &open.result else { return notes };
-    let before = result.change().map_or(&[][..], |change| change.notes_before());
-    for note in before.iter().chain(&result.notes) {
+    let result = open.result.as_deref();
+    let before = result.and_then(StudyResult::change).map_or(&[][..], |change| change.notes_before());
+    let of_result = result.map_or(&[][..], |result| &result.notes);
+    for note in before.iter().chain(of_result).chain(&open.export_notes) {
         if !notes.contains(&note) {
             notes.push(note);
         }

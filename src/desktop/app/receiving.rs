@@ -56,8 +56,13 @@ impl App {
     }
 
     fn receive_file(&mut self) {
-        let Some(result) = self.writing.as_ref().and_then(Work::done) else { return };
+        let Some(writing) = &self.writing else { return };
+        let Some(result) = writing.done() else { return };
+        let notes = writing.notes();
         self.writing = None;
+        if let Some(open) = &mut self.open {
+            open.export_notes = notes;
+        }
         match result {
             Ok(path) => self.notice = Some(format!("Written: {}", path.display())),
             Err(fault) => self.fault = Some(fault),

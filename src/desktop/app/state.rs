@@ -22,6 +22,7 @@ use crate::desktop::work::studies::ClickedSun;
 use crate::export::figure::Colours;
 use crate::formats::ModelReader;
 use crate::gpu::{Gpu, readback};
+use crate::message::Message;
 use crate::sunlight::Sunlight;
 use eframe::egui;
 use eframe::egui_wgpu::RenderState;

@@ -18,6 +18,7 @@ mod between;
 #[cfg(feature = "test-hooks")]
 mod factor;
 mod fill;
+mod fine;
 mod occluders;
 mod on_gpu;
 mod query;
