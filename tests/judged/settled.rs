@@ -10,7 +10,8 @@ fn settled(tables: &str) -> JudgedSite {
 }
 
 fn refused(tables: &str, words: &[&str]) {
-    let message = settle(judged(tables)).expect_err("a mistake").to_string();
+    let Err(error) = settle(judged(tables)) else { panic!("a mistake is taken: {words:?}") };
+    let message = error.to_string();
     assert!(!message.contains('\n'), "{message}");
     for word in words {
         assert!(message.contains(word), "{message:?} does not say {word:?}");
