@@ -69,7 +69,7 @@ pub(super) fn checked(written: &[Vec<DVec2>]) -> Result<Vec<CheckedRing>, Messag
 
 /// The corners of one border without repeats.
 fn ring(written: &[DVec2], of: &str) -> Result<CheckedRing, Message> {
-    if let Some(at) = written.iter().position(|corner| !(corner.abs().max_element() <= FARTHEST_M)) {
+    if let Some(at) = written.iter().position(|corner| !corner.is_finite() || corner.abs().max_element() > FARTHEST_M) {
         let what = format!("has a corner, number {} {of}at {}, that is no point within 50 km", at + 1, written[at]);
         return Err(message![what; "write metres east and north of the place, for example [12.0, -3.0]"]);
     }
