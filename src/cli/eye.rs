@@ -1,18 +1,18 @@
-//! `--view`: the point from which the shadows are seen.
+//! `--view`: the view of the shadows.
 
 use super::wrong_use::WrongUse;
 use crate::site::Site;
 use crate::view::{Side, View};
 use clap::ValueEnum;
 
-/// From where the shadows are seen.
+/// The view of the shadows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Viewpoint {
     /// From above, north up
     Plan,
-    /// As the site's camera sees it: in perspective, or the side that it names
+    /// The site's camera: in perspective, or the side that the site file names
     Camera,
-    /// From the north: along parallel, level rays, true to scale
+    /// From the north, along parallel, horizontal rays, true to scale
     North,
     /// The same from the east
     East,
@@ -23,7 +23,7 @@ pub(super) enum Viewpoint {
 }
 
 impl Viewpoint {
-    /// The side that is named.
+    /// The side, if the view is one.
     pub(super) fn side(self) -> Option<Side> {
         match self {
             Viewpoint::Plan | Viewpoint::Camera => None,
@@ -34,7 +34,7 @@ impl Viewpoint {
         }
     }
 
-    /// The view of a site that was asked for that side.
+    /// The view of a site that was requested with that side.
     pub(super) fn of(self, site: &Site) -> View {
         match self {
             Viewpoint::Plan => View::Plan(site.grid),
@@ -42,13 +42,13 @@ impl Viewpoint {
         }
     }
 
-    /// Errs where options of the plan are given, and none is drawn.
+    /// Refuses options of the plan for other views.
     pub(super) fn check(self, of_plan: &[&str]) -> Result<(), WrongUse> {
         match (self, of_plan) {
             (Viewpoint::Plan, _) | (_, []) => Ok(()),
             (_, [option, ..]) => {
                 let word = self.to_possible_value().map_or_else(String::new, |word| word.get_name().to_owned());
-                Err(WrongUse(format!("{option} is for the plan, and --view {word} has none; leave one out")))
+                Err(WrongUse(format!("{option} is for the plan, but --view {word} has none; leave one out")))
             }
         }
     }
