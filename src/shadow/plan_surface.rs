@@ -1,7 +1,7 @@
-//! What each cell of a plan sees first, on the processor: every face is scan-converted, and the highest one stays.
+//! Finds what each cell of a plan sees first, on the processor: scan-converts every face, and keeps the highest.
 //!
-//! The result is that of one ray per cell straight down, in double precision like that, but many times faster, since
-//! each face is visited once and not each cell. `RayCast::surface` is its slow plain twin.
+//! The result is that of one ray straight down per cell, in the same double precision, but many times faster, since
+//! each face is visited once and not each cell. `RayCast::surface` is its slow twin.
 
 use super::ray_cast::TIE;
 use crate::mesh::{Mesh, scan};
@@ -10,16 +10,16 @@ use glam::{DVec2, DVec3, Vec3Swizzles};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Rows of a band, which one task draws.
+/// The rows of a band, which is one task.
 const BAND: usize = 32;
 
-/// The highest face of some receivers below each cell's centre, or the ground, if that is higher.
+/// Returns for each cell the highest face of some receivers at its centre, or the ground if that is higher.
 pub fn plan_surface(receivers: &Mesh, ground: f64, grid: &Grid) -> Surface {
     let (face, height_m) = highest(receivers, ground, (*grid).into(), |height| height as f32);
     Surface { width: grid.width, height: grid.height, face, height_m }
 }
 
-/// Per cell of a tile the face and its height in the world, metres, as it is to be kept.
+/// For each cell of a tile, the face and its height in the world in metres, converted by `keep`.
 pub(super) fn highest<T: Copy + Default + Send>(
     receivers: &Mesh,
     ground: f64,
@@ -40,13 +40,13 @@ pub(super) fn highest<T: Copy + Default + Send>(
     (face, kept)
 }
 
-/// The same, some rows at a time.
+/// The same, a few rows at a time.
 pub struct PlanSurface<'a> {
     receivers: &'a Mesh,
     ground: f64,
     tile: Tile,
     corners: Corners,
-    /// Which faces reach into which band; a list for each run of faces, so that their order stays.
+    /// The faces that reach into each band; a list for each task, so that their order is kept.
     bands: Vec<Vec<Vec<u32>>>,
 }
 
@@ -63,7 +63,7 @@ impl<'a> PlanSurface<'a> {
         PlanSurface { receivers, ground, tile, corners, bands }
     }
 
-    /// Per cell of some of the plan's rows the face that it sees, where `face` is the ground's so far, and how high that is.
+    /// Finds for each cell of some rows the face that it sees and its height. At first, `face` must be the ground's.
     fn highest(&self, rows: Range<usize>, face: &mut [u32], heights: &mut Vec<f64>) {
         let [first, width] = [self.tile.first[0], self.tile.size[0]].map(|column| column as usize);
         heights.clear();
@@ -74,7 +74,7 @@ impl<'a> PlanSurface<'a> {
                 let triangle = self.corners.of(self.receivers.faces[at as usize]);
                 triangle.scan(first..first + width, of_band.clone(), |row, column, z| {
                     let cell = (row - rows.start) * width + column - first;
-                    // a receiver in the ground hides it; of two at one height the first is seen
+                    // a receiver in the ground's plane hides the ground; of two at equal heights the first is seen
                     if z > heights[cell] || (z == heights[cell] && face[cell] == Surface::GROUND) {
                         heights[cell] = z;
                         face[cell] = at;
@@ -100,7 +100,7 @@ impl SurfaceRows for PlanSurface<'_> {
     }
 }
 
-/// Where vertices stand on a plan: column, row, height in the world. Centres of cells are whole numbers.
+/// The vertices on a plan: column, row, and height in the world. Centres of cells are whole numbers.
 struct Corners(Vec<DVec3>);
 
 impl Corners {
@@ -119,7 +119,7 @@ impl Corners {
         Triangle::new(face.map(|vertex| self.0[vertex as usize]))
     }
 
-    /// Which faces reach into which band; a list for each run of faces, so that their order stays.
+    /// The faces that reach into each band; a list for each task, so that their order is kept.
     fn by_band(&self, mesh: &Mesh, of: Range<usize>) -> Vec<Vec<Vec<u32>>> {
         let run = mesh.faces.len().div_ceil(4 * rayon::current_num_threads()).max(1);
         let runs = mesh.faces.par_chunks(run).enumerate().map(|(index, faces)| {
@@ -127,7 +127,7 @@ impl Corners {
             for (at, face) in faces.iter().enumerate() {
                 let triangle = self.of(*face);
                 let rows = triangle.rows(of.clone());
-                // seen from its edge, as most walls are, it is nothing
+                // edge-on faces, such as most walls, cover nothing
                 if !rows.is_empty() && triangle.normal().z != 0.0 {
                     let bands = &mut bands[rows.start / BAND..=(rows.end - 1) / BAND];
                     bands.iter_mut().for_each(|band| band.push((index * run + at) as u32));
@@ -139,9 +139,9 @@ impl Corners {
     }
 }
 
-/// A triangle over a raster: columns, rows and any number that is linear over it.
+/// A triangle over a raster: columns, rows, and a value that is linear over it.
 struct Triangle {
-    /// From the upper to the lower corner.
+    /// Sorted from the upper to the lower corner.
     corners: [DVec3; 3],
 }
 
@@ -151,19 +151,19 @@ impl Triangle {
         Triangle { corners }
     }
 
-    /// Upright to it, of any length.
+    /// Its normal, of any length.
     fn normal(&self) -> DVec3 {
         let [top, middle, bottom] = self.corners;
         (middle - top).cross(bottom - top)
     }
 
-    /// The rows whose centres it reaches, of some.
+    /// The rows, among some, whose centres it reaches.
     fn rows(&self, of: Range<usize>) -> Range<usize> {
         let [top, _, bottom] = self.corners;
         scan::wholes([top.y, bottom.y], of)
     }
 
-    /// Tells row, column and height of each of some centres that lies within it or on its edge.
+    /// Calls `tell` with row, column and height of each of some centres in the triangle or on its edge.
     fn scan(&self, columns: Range<usize>, rows: Range<usize>, mut tell: impl FnMut(usize, usize, f64)) {
         let [top, middle, bottom] = self.corners;
         let normal = self.normal();
