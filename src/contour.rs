@@ -1,42 +1,42 @@
-//! Contours of a raster: the lines between the cells above a threshold and the others. Marching squares walks between
+//! Contours of a raster: the lines between the cells above a threshold and the others. Marching squares runs between
 //! the cells' centres; each line is then straightened as far as it still passes between the same cells.
 //!
-//! A cell is either above or not, so that no cell lies on a line. Straight edges come out straight at any slope,
-//! because a line may lie anywhere between the centres that it separates. It is first pulled straight between them,
-//! over long and then over shorter stretches, and then gets the fewest corners that a walk along it finds (after Guibas
-//! and others, "Approximating polygons and subdivisions with minimum-link paths", 1991; ours keeps to points of the
-//! pulled line, and is greedy).
+//! A cell is either above or not, so no cell lies on a line. Straight edges come out straight at any slope, because a
+//! line may lie anywhere between the centres that it separates. It is first pulled straight between them, over long and
+//! then over shorter stretches, and then gets the fewest corners that a greedy walk along it finds (after Guibas et
+//! al., "Approximating polygons and subdivisions with minimum-link paths", 1991; ours keeps to points of the pulled
+//! line).
 
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
-/// The numbers whose contours are found.
+/// The values whose contours are found.
 #[derive(Clone, Copy)]
 pub struct ScalarField<'a> {
     /// Columns.
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// The number of a cell; row 0 comes first. Numbers are below 2⁶².
+    /// The value of a cell; row 0 comes first. Values are below 2⁶².
     pub value: &'a (dyn Fn(usize) -> u64 + Sync),
     /// Whether a line may be drawn between two neighbours (west and east, or north and south) on different sides of the
     /// threshold. If not, something else separates them, such as a wall, and lines end there.
     pub open: &'a (dyn Fn(usize, usize) -> bool + Sync),
 }
 
-/// The line around one group of cells above the threshold, or around a hole in it. It is closed, and clockwise around
-/// the cells above, seen with row 0 on top.
+/// The line around a group of cells above the threshold, or around a hole in it. It is closed, and clockwise around the
+/// cells above if row 0 is at the top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contour {
     /// Columns and rows from the raster's north-west corner, in cells: a cell's centre is half a cell from its corners.
     pub points: Vec<[f64; 2]>,
-    /// For the segment from each point to the next, whether it is drawn: segments along the raster's border are not,
-    /// and those for which [`ScalarField::open`] is false at both ends.
+    /// For the segment from each point to the next, whether it is drawn. Segments along the raster's border are not,
+    /// nor are those for which [`ScalarField::open`] is false at both ends.
     pub drawn: Vec<bool>,
 }
 
 impl Contour {
-    /// The lines that are drawn. A closed one ends with its first point.
+    /// Returns the lines that are drawn. A closed one ends with its first point.
     pub fn lines(&self) -> Vec<Vec<[f64; 2]>> {
         let count = self.points.len();
         let Some(gap) = self.drawn.iter().position(|drawn| !drawn) else {
@@ -56,17 +56,17 @@ impl Contour {
         lines
     }
 
-    /// The number of cells that it encloses, by its corners; negative for a hole.
+    /// The area that it encloses, in cells; negative for a hole.
     pub fn area(&self) -> f64 {
         let next = self.points.iter().cycle().skip(1);
         self.points.iter().zip(next).map(|(from, to)| cross(*from, *to)).sum::<f64>() / 2.0
     }
 }
 
-/// How near to a centre a line may come, in cells.
+/// The least distance of a line from a centre, in cells.
 const CLEAR: f64 = 0.01;
 
-/// The contours of all cells whose number is above `threshold`, in the order of their first rows.
+/// Returns the contours of all cells with a value above `threshold`, in the order of their first rows.
 pub fn contours(field: &ScalarField, threshold: u64) -> Vec<Contour> {
     let walk = Walk { field, threshold, pitch: u64::from(field.width) + 2 * PAD };
     let rows = (0..u64::from(field.height) + 2 * PAD - 1).into_par_iter();
@@ -87,18 +87,18 @@ pub fn contours(field: &ScalarField, threshold: u64) -> Vec<Contour> {
     rings.into_par_iter().map(straightened).collect()
 }
 
-/// Cells around the raster: one like its neighbour within, so that lines reach the border, and one below any threshold, so
-/// that they close.
+/// The padding around the raster: one cell like its inner neighbour, so that lines reach the border, and one below any
+/// threshold, so that they close.
 const PAD: u64 = 2;
 
 /// Why a line passes between two cells.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum LineCause {
-    /// The numbers lie on different sides of the threshold.
+    /// The values are on different sides of the threshold.
     Open,
     /// Something else separates the cells.
     Wall,
-    /// One of the cells lies outside.
+    /// One of the cells is outside of the raster.
     Border,
 }
 
@@ -106,7 +106,7 @@ enum LineCause {
 #[derive(Clone, Copy)]
 struct LineCrossing {
     point: [f64; 2],
-    /// Between these: below the threshold, and above it.
+    /// The line passes between these: a cell below the threshold, and one above.
     sides: [[f64; 2]; 2],
     between: LineCause,
 }
@@ -114,12 +114,12 @@ struct LineCrossing {
 struct Walk<'a> {
     field: &'a ScalarField<'a>,
     threshold: u64,
-    /// Columns with what is around.
+    /// The number of columns with padding.
     pitch: u64,
 }
 
 impl Walk<'_> {
-    /// The cell of the raster that stands for a padded one; none outside.
+    /// The raster's cell for a padded one; `None` outside.
     fn cell(&self, column: u64, row: u64) -> Option<usize> {
         let along = |at: u64, count: u32| {
             let last = u64::from(count) + 2 * PAD - 1;
@@ -133,14 +133,14 @@ impl Walk<'_> {
         (0..self.pitch).map(|column| self.cell(column, row).is_some_and(is_above)).collect()
     }
 
-    /// The steps of lines through the squares between the centres of a row and the next: each from a pair of neighbours,
-    /// of which it parts one from the other, to another one. A pair is twice the number of its first cell, and 1 more for
-    /// the one below it.
+    /// The steps of lines through the squares between the centres of a row and the next. Each leads from one pair of
+    /// neighbours that it separates to another. A pair is encoded as twice the index of its first cell, plus 1 if the
+    /// second is below it.
     fn steps(&self, row: u64) -> Vec<(u64, u64)> {
         let (upper, lower) = (self.above(row), self.above(row + 1));
         let mut steps = Vec::new();
         for (at, (up, low)) in upper.windows(2).zip(lower.windows(2)).enumerate() {
-            // clockwise from the north-west, as are the sides between them from the north
+            // clockwise from the north-west; the sides between them clockwise from the north
             let corners = [up[0], up[1], low[1], low[0]];
             if corners == [corners[0]; 4] {
                 continue;
@@ -160,7 +160,7 @@ impl Walk<'_> {
         steps
     }
 
-    /// Whether the two of four cells that are above are connected: they are if the mean is above, too.
+    /// Whether two diagonal cells above the threshold are connected: they are if the mean is above, too.
     fn joined(&self, column: u64, row: u64) -> bool {
         let cells = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(east, south)| self.cell(column + east, row + south));
         let sum: u128 = cells.into_iter().flatten().map(|cell| u128::from((self.field.value)(cell))).sum();
@@ -176,7 +176,7 @@ impl Walk<'_> {
         };
         let centres = ends.map(centre);
         let (Some(a), Some(b)) = (self.cell(ends[0][0], ends[0][1]), self.cell(ends[1][0], ends[1][1])) else {
-            // the one outside is as far away as the border, and so is the one that stands in
+            // outside cells, and those that replace them, are at the border
             let point = centres[usize::from(self.cell(ends[0][0], ends[0][1]).is_none())];
             return LineCrossing { point, sides: [point; 2], between: LineCause::Border };
         };
@@ -186,14 +186,14 @@ impl Walk<'_> {
     }
 }
 
-/// A ring of crossings with the corners that it needs.
+/// A ring of crossings with only the corners that it needs.
 fn straightened(mut ring: Vec<LineCrossing>) -> Contour {
     let count = ring.len();
     let is_drawn = |ring: &[LineCrossing], at: usize| {
         let ends = [ring[at % count].between, ring[(at + 1) % count].between];
         ends.contains(&LineCause::Open) && !ends.contains(&LineCause::Border)
     };
-    // what is drawn begins and ends with points of its own
+    // drawn stretches begin and end with points of their own
     let change = (1..count).find(|&at| is_drawn(&ring, at - 1) != is_drawn(&ring, at));
     ring.rotate_left(change.unwrap_or(0));
     ring.push(ring[0]);
@@ -212,12 +212,12 @@ fn straightened(mut ring: Vec<LineCrossing>) -> Contour {
     Contour { points, drawn }
 }
 
-/// Pulls crossings towards the straight way between others before and behind them, as far as their sides let them.
+/// Pulls crossings towards the straight line between others before and after them, as far as their sides allow.
 fn pull(ring: &mut [LineCrossing]) {
     let last = ring.len() - 1;
     for away in [128, 64, 32, 16, 8, 4, 2, 1] {
         for at in 1..last {
-            // what is small keeps its shape
+            // small shapes are kept
             let away = away.min(at).min(last - at).min(last / 8);
             if away == 0 {
                 continue;
@@ -226,7 +226,7 @@ fn pull(ring: &mut [LineCrossing]) {
             let LineCrossing { sides: [low, high], between, .. } = ring[at];
             let along = sub(behind, before);
             let [left, right] = [low, high].map(|side| cross(along, sub(side, before)));
-            // from the back a line passes between no cells
+            // a line that runs backwards does not pass between cells
             if between != LineCause::Border && right - left > 1e-9 {
                 let share = left / (left - right);
                 ring[at].point = mix(low, high, share.clamp(2.0 * CLEAR, 1.0 - 2.0 * CLEAR));
@@ -235,7 +235,7 @@ fn pull(ring: &mut [LineCrossing]) {
     }
 }
 
-/// How many crossings on a straight line from the first one may end: found by leaps that double, and then halve.
+/// The number of crossings on a straight line from the first one, found by exponential search.
 fn reach(ring: &[LineCrossing]) -> usize {
     let last = ring.len() - 1;
     let (mut reach, mut leap) = (1, 1);
@@ -291,7 +291,7 @@ fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 
-/// Positive where `b` points to the right of `a`, with rows counted downwards.
+/// Positive if `b` points to the right of `a`, with rows counted downwards.
 fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[1] - a[1] * b[0]
 }

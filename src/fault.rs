@@ -14,10 +14,10 @@ use crate::study::StudyError;
 use crate::sun::SunError;
 use std::error::Error;
 
-/// An error as what speaks of fields, where it does.
+/// Views an error as one that names fields, if it is one.
 type AsWorded = for<'a> fn(&'a (dyn Error + 'static)) -> Option<&'a dyn Worded>;
 
-/// Every error that speaks of fields.
+/// Every error type that names fields.
 const WORDED: &[AsWorded] = &[
     worded::<Misfit>,
     worded::<SunError>,

@@ -5,18 +5,18 @@
 //!                             └─► SunTrack ─────────────────────┴─► Technique ─► Mask ─► Profile ─► drawings, data
 //! ```
 //!
-//! The whole flow is one function, [`study::run`]. What is documented here is for programs that use Gnomon as a library, and
-//! holds from one version to the next of the same number; all else that is public serves the program's own parts and tests.
+//! The whole flow is one function, [`study::run`]. The documented items are for programs that use Gnomon as a library,
+//! and are stable within a major version; all other public items serve the program's own parts and tests.
 //!
 //! # Three doors
 //!
-//! All three run from the repository: `cargo run --example site-in-memory`.
-//! [`chrono`] and [`glam`], whose types they speak in, are exported. Without the feature `desktop` there is no window to build.
+//! The examples run from the repository: `cargo run --example site-in-memory`. [`chrono`] and [`glam`], whose types
+//! they use, are re-exported. Without the feature `desktop` no window is built.
 //!
 //! ## A site made in memory
 //!
-//! [`site::Site::in_memory`] takes a place, a mesh of named parts, the instants and the plan. A mesh takes the middle of its
-//! parts as its origin; [`mesh::Mesh::build_around`] takes another one.
+//! [`site::Site::in_memory`] takes a place, a mesh of named parts, the instants and the plan. A mesh uses the middle of
+//! its parts as its origin; [`mesh::Mesh::build_around`] takes a different one.
 //!
 //! ```no_run
 #![doc = include_str!("../examples/site-in-memory.rs")]
@@ -24,10 +24,10 @@
 //!
 //! ## A study and its sums
 //!
-//! [`study::run`] gives the [`profile::Profile`]: [`profile::Shaded::in_one_word`] is the slice, [`view::Grid::transform`]
-//! where it lies. To share a study out, [`study::TiledStudy::sum`] does one tile at some instants, whose fields are plain
-//! data ([`sun::Instant`]); [`study::TiledStudy::number`] is the study's fingerprint, the same wherever it is built and
-//! runs.
+//! [`study::run`] returns the [`profile::Profile`]: [`profile::Shaded::in_one_word`] is the slice of sums,
+//! [`view::Grid::transform`] its transform. To distribute a study, [`study::TiledStudy::sum`] computes one tile at some
+//! instants, whose fields are plain data ([`sun::Instant`]); [`study::TiledStudy::number`] is the study's fingerprint,
+//! the same on every machine.
 //!
 //! ```no_run
 #![doc = include_str!("../examples/sums-of-a-study.rs")]
@@ -35,9 +35,9 @@
 //!
 //! ## One sun, one mask
 //!
-//! A [`shadow::Technique`] is made for a [`shadow::Scene`] and a [`view::View`], and draws a [`view::Mask`] for any direction of
-//! the sun above the horizon. [`shadow::ray_cast`] and [`shadow::projected`] need no graphics adapter, the others take an open
-//! [`gpu::Gpu`].
+//! A [`shadow::Technique`] is made for a [`shadow::Scene`] and a [`view::View`], and draws a [`view::Mask`] for any
+//! direction of the sun above the horizon. [`shadow::ray_cast`] and [`shadow::projected`] need no graphics adapter; the
+//! others use an open [`gpu::Gpu`].
 //!
 //! ```no_run
 #![doc = include_str!("../examples/mask-of-one-sun.rs")]
@@ -50,8 +50,8 @@
 
 pub use {chrono, glam};
 
-// The modules in the order in which they are best read; each knows only those above it, and a test says so. Those that are
-// no part of a door are hidden in the documentation; `docs/architecture.md` has all of them.
+// The modules in the best order for reading. Each uses only those above it, as a test checks. Modules without a public
+// API are hidden in the documentation; `docs/architecture.md` describes all of them.
 
 pub mod message;
 

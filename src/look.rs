@@ -1,34 +1,34 @@
 //! How sun and shadow look: colours, light, haze, relief and lines, as one value.
 //!
-//! Drawings read [`LOOK`]; the picture's shader, which draws the same for a window, gets it as a uniform. A test
-//! compares whole pictures of the two.
+//! Drawings read [`LOOK`], and the shader that draws the window's picture gets it as a uniform. A test compares whole
+//! pictures of the two.
 
 use glam::DVec3;
 
-/// The look of all drawings and pictures. Colours of three numbers are linear factors or display values, 0 to 1; those of
-/// three bytes are sRGB.
+/// The look of all drawings and pictures. Colours of three floats are linear factors or display values, 0 to 1; colours
+/// of three bytes are sRGB.
 #[derive(Clone, Copy, Debug)]
 pub struct Look {
     /// The building's material, like matt card: its reflectance in display values.
     pub building: DVec3,
     /// The ground that it stands on.
     pub ground: DVec3,
-    /// The earth that an elevation cuts, as a factor of the ground.
+    /// The factor for the earth that an elevation cuts, relative to the ground.
     pub cut_earth: f64,
     /// The tint of the sky's light.
     pub sky_light: DVec3,
     /// The tint of the sun's light.
     pub sun_light: DVec3,
-    /// How much of the sky a wall sees.
+    /// The share of the sky that a wall sees.
     pub sky: f64,
-    /// How much more of the sky a face that looks upwards sees, and how much less one that looks downwards.
+    /// The increase of that share for a face that faces up, and its decrease for one that faces down.
     pub sky_slope: f64,
     /// The value of level ground in the sun, nearly the paper's white.
     pub exposure: f64,
     /// The sine of the sun's altitude below which the exposure no longer makes up for the weak light.
     pub least_height: f64,
-    /// The least light of a face on which the sun shines, so that a face that the sun grazes still differs from shade:
-    /// the drawing says where the sun shines, not how warm it is there.
+    /// The least light on a face in the sun, so that a face at a grazing angle still differs from shade: the drawing
+    /// shows where the sun shines, not how warm it is there.
     pub least_sun: f64,
     /// Values above this are compressed instead of cut off.
     pub pressed_above: f64,
@@ -38,9 +38,9 @@ pub struct Look {
     pub horizon: DVec3,
     /// The sky overhead.
     pub zenith: DVec3,
-    /// How fast the sky changes from one to the other, and how far.
+    /// How fast the sky's colour changes from the horizon upwards.
     pub sky_rise: f64,
-    /// How far the sky changes at most.
+    /// The greatest share of that change.
     pub sky_most: f64,
     /// The distance at which haze begins, in distances of the subject.
     pub haze_begins: f64,
@@ -48,22 +48,22 @@ pub struct Look {
     pub haze_length: f64,
     /// The factor for night: everything is dimmer and bluer.
     pub night: DVec3,
-    /// The colour of what is not judged, among surfaces in the colours of hours.
+    /// The colour of surfaces that are not judged, beside surfaces in the colours of hours.
     pub not_judged: [u8; 3],
-    /// The ground around surfaces in the colours of hours. It is not judged either, and has no entry in the legend.
+    /// The colour of the ground around surfaces in the colours of hours. It is not judged either, and has no entry in
+    /// the legend.
     pub hours_ground: [u8; 3],
-    /// The light on card that was not counted, where a plan's hours lie over what a camera sees: that of a wall on
-    /// average.
+    /// The mean light on a wall that is not judged, where a plan's hours are drawn in a camera's picture.
     pub hours_card: f64,
-    /// How much more of it a face has per unit of its normal towards the east, the north and above.
+    /// How that light changes per unit of the normal towards the east, the north and up.
     pub hours_card_slope: DVec3,
-    /// The factor for a plan's hours that a camera sees, on a wall.
+    /// The factor for a plan's hours in a camera's picture, on a wall.
     pub hours_wall: f64,
-    /// How much more it is on a face that looks upwards.
+    /// The increase of that factor on a face that faces up.
     pub hours_wall_slope: f64,
-    /// How far a seen point may be above or below the surface that was counted, metres, beside what its slope adds.
+    /// The tolerance in height between a seen point and the counted surface, metres, besides the effect of its slope.
     pub hours_height_m: f64,
-    /// The part of a unit normal that points up, below which a face has no hours of a plan's cells.
+    /// The least upward component of a unit normal for a face to show a plan's hours.
     pub hours_least_up: f64,
 
     /// The plan's ground in the sun.
@@ -74,24 +74,24 @@ pub struct Look {
     pub plan_roof_sun: [u8; 3],
     /// Roofs in the shade.
     pub plan_roof_shade: [u8; 3],
-    /// The factor in the shade for components in their own colours.
+    /// The factor in the shade for components with colours of their own.
     pub plan_tint_shade: f64,
     /// How strongly slopes differ from level roofs.
     pub relief: f64,
-    /// The same where colours are a measure: weak enough not to be taken for another band.
+    /// The same where colours show values: weak enough not to be mistaken for a different band.
     pub relief_of_hours: f64,
     /// The darkest factor of a slope.
     pub relief_darkest: f64,
     /// The lightest factor of a slope.
     pub relief_lightest: f64,
-    /// The part of a unit normal that points up, above which a face is level and has no relief.
+    /// The upward component of a unit normal above which a face is level and has no relief.
     pub relief_level: f64,
 
-    /// The colour of the lines; nearly black, so that it also reads on a scale's dark end.
+    /// The colour of the lines: nearly black, so that it is visible on a scale's dark end.
     pub line: [u8; 3],
-    /// The strength of lines, 0 to 1: of outlines in the plan, against the ground.
+    /// The strength of lines, 0 to 1, for outlines in the plan, against the ground.
     pub outline: f32,
-    /// The strength where heights or depths jump, and against the sky.
+    /// The strength at jumps of height or depth, and against the sky.
     pub step: f32,
     /// The strength where buildings meet the ground, in a camera's picture.
     pub foot: f32,
@@ -105,10 +105,9 @@ pub struct Look {
     pub plan_step_least_m: f64,
     /// The greatest such gap, however large the cells are, metres.
     pub plan_step_most_m: f64,
-    /// The part of a unit normal that points up, to which a face is a wall: seen from above, it has no height to carry
-    /// on with.
+    /// The upward component of a unit normal up to which a face is a wall, whose height is not extrapolated in a plan.
     pub plan_wall_up: f64,
-    /// The share of the distance from which a gap in depth is a step.
+    /// The relative gap in depth that is a step.
     pub step_share: f64,
     /// The gap that is a step in a side's picture, in pixels.
     pub side_step_pixels: f64,
@@ -119,14 +118,14 @@ pub struct Look {
     pub volume: [u8; 3],
     /// The colour of silhouettes.
     pub silhouette: [u8; 3],
-    /// How much of what lies behind it one layer of volumes hides.
+    /// The opacity of one layer of volumes.
     pub layer: f64,
-    /// How much all layers hide at most, so that shadows stay legible below them.
+    /// The greatest opacity of all layers together, so that shadows stay visible below them.
     pub most_layers: f64,
 }
 
-/// The look of the program: like a photograph of a plain model, warm in the sun and cool in the shade; the plan has the
-/// same tones.
+/// The program's look: like a photograph of a plain model, warm in the sun and cool in the shade. The plan has the same
+/// tones.
 pub const LOOK: Look = Look {
     building: DVec3::new(0.995, 0.975, 0.935),
     ground: DVec3::new(0.965, 0.945, 0.895),

@@ -1,4 +1,4 @@
-//! The program. With a subcommand it is the command, without one it opens the window.
+//! The program: with a subcommand it is the command, without one it opens the window.
 
 use std::process::ExitCode;
 
@@ -6,7 +6,7 @@ fn main() -> ExitCode {
     gnomon::cli::main(WINDOW)
 }
 
-/// What opens the window, where there is one.
+/// The function that opens the window, if there is one.
 const WINDOW: Option<gnomon::cli::WindowOpener> = {
     #[cfg(feature = "desktop")]
     {

@@ -1,4 +1,5 @@
-//! Messages for people, before it is known which face shows them: text in which the fields of the request are marked.
+//! Messages for people that do not depend on the face that shows them: text in which the fields of the request are
+//! marked.
 //!
 //! An error or a note names a [`Field`], and each face has [`Words`] for it: the command an option, the window a label.
 
@@ -6,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::fmt;
 
-/// The fields of a request, each with the name that it has where no face words it.
+/// The fields of a request, each with its name outside of the faces.
 macro_rules! fields {
     ($($(#[$doc:meta])* $field:ident => $name:literal,)+) => {
         /// The fields of a request.
@@ -17,7 +18,7 @@ macro_rules! fields {
             /// All fields.
             pub const ALL: &'static [Field] = &[$(Field::$field,)+];
 
-            /// Its name, where no face has a word for it.
+            /// Its name where no face has a word for it.
             pub fn name(self) -> &'static str {
                 match self { $(Field::$field => $name,)+ }
             }
@@ -28,15 +29,15 @@ macro_rules! fields {
 fields! {
     /// Latitude and longitude.
     Place => "place",
-    /// Several model files at once.
+    /// Several model files.
     Models => "models",
-    /// The upward axis of all models.
+    /// The up axis of all models.
     Up => "up",
-    /// The height from the ground to the roof of a footprint whose file says none.
+    /// The height of footprints whose files give none.
     DefaultHeight => "default height",
-    /// The longest time of reading a model.
+    /// The time limit of reading a model.
     ReadTime => "time to read a model",
-    /// The most memory of reading a model.
+    /// The memory limit of reading a model.
     ReadMemory => "memory to read a model",
     /// The list of what a model contains, and of what was left out.
     Check => "check",
@@ -54,7 +55,7 @@ fields! {
     To => "to",
     /// The time between two instants.
     Step => "step",
-    /// How near together the moments lie between which times of change are found.
+    /// The precision of times of change.
     Resolution => "resolution",
     /// A single instant, instead of the study.
     At => "instant",
@@ -66,9 +67,9 @@ fields! {
     Points => "table of points",
     /// Components on which points are laid.
     On => "components with points",
-    /// From point to point along walls.
+    /// The distance between points along walls.
     Spacing => "spacing of points",
-    /// How high these points lie above the ground.
+    /// The height of these points above the ground.
     Height => "height of points",
     /// The rectangle of the plan.
     Region => "region",
@@ -100,15 +101,15 @@ fields! {
     SunSamples => "points of the sun's disc",
     /// Volumes and silhouette over the picture.
     Volumes => "volumes and silhouette",
-    /// A picture of whether map or volumes decide each cell.
+    /// A diagram of whether the map or the volumes decide each cell.
     MaskDiagram => "picture of the mask",
-    /// A picture of how many volumes are counted.
+    /// A diagram of the number of counted fragments.
     OverdrawDiagram => "picture of the overdraw",
     /// The statistics of counting.
     Statistics => "statistics",
     /// Line drawings.
     Lines => "drawings of lines",
-    /// A drawing of each instant's outlines.
+    /// A drawing of the outlines at each instant.
     Outlines => "a drawing of outlines",
     /// Every instant's mask.
     Masks => "masks",
@@ -130,30 +131,30 @@ fields! {
 
 /// The words of a face for the fields of a request.
 pub trait Words: fmt::Debug + Send + Sync {
-    /// A field; none where the face has no such field.
+    /// The word for a field; `None` if the face does not have the field.
     fn name(&self, _field: Field) -> Option<&'static str> {
         None
     }
 
-    /// A field that the site file has, where it is spoken of as of one of its keys.
+    /// The word for a field of the site file, in a sentence about one of its keys.
     fn key(&self, field: Field) -> &'static str {
         field.name()
     }
 
-    /// A key of no file in particular, and perhaps the value that it is to have, which a site file has as `written` says it:
-    /// `` `level` in [ground] ``.
+    /// The word for a key that may be set in any site file, perhaps to a value. `written` is how a site file would have
+    /// it: `` `level` in [ground] ``.
     fn setting(&self, _table: &str, _key: &str, _value: Option<&str>, written: &str) -> String {
         written.to_owned()
     }
 
-    /// A key of a site file; an empty one is the table itself.
+    /// The word for a key of a site file; an empty key is the table itself.
     fn at(&self, file: &str, table: &str, key: &str) -> String {
         let gap = if key.is_empty() { "" } else { " " };
         format!("{file}, {table}{gap}{key}")
     }
 }
 
-/// The words outside of a face: every field has its own name.
+/// The words outside of the faces: the fields' own names.
 #[derive(Clone, Copy, Debug)]
 pub struct PlainWords;
 
@@ -174,31 +175,31 @@ pub enum Piece {
     Field(Field),
     /// A field with a value.
     Set(Field, Cow<'static, str>),
-    /// A field as a key of the site file.
+    /// A field, as a key of the site file.
     Key(Field),
     /// A key in a table of a file.
     At {
-        /// As the user named it.
+        /// The file as the user named it.
         file: String,
-        /// With its brackets.
+        /// The table with its brackets.
         table: String,
-        /// Empty for the table itself.
+        /// The key; empty for the table itself.
         key: String,
     },
-    /// A key that a person may set in any site, where a face has a word for it.
+    /// A key that may be set in any site, for faces that have a word for it.
     Setting {
-        /// With its brackets.
+        /// The table with its brackets.
         table: Cow<'static, str>,
-        /// In that table.
+        /// The key.
         key: Cow<'static, str>,
-        /// What it is to be set to.
+        /// The value that it should be set to.
         value: Option<String>,
         /// How a site file has it, in a sentence.
         written: Cow<'static, str>,
         /// What a face may have in its place: only said where there is no site file.
         field: Option<Field>,
     },
-    /// Pieces for those faces alone that have a field.
+    /// Pieces that only faces with a certain field show.
     Where(Field, Vec<Piece>),
 }
 
@@ -232,7 +233,7 @@ impl From<(Field, String)> for Piece {
     }
 }
 
-/// A message: what is wrong, or what the user should know; and, apart from it, what can be done.
+/// A message: what is wrong, or what the user should know; and separately the hint, what can be done.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Message {
     /// What is wrong, or what the user should know.
@@ -241,12 +242,12 @@ pub struct Message {
     pub hint: Vec<Piece>,
 }
 
-/// Pieces, of texts and fields.
+/// Makes pieces from texts and fields.
 macro_rules! pieces {
     ($($piece:expr),*) => { vec![$($crate::message::Piece::from($piece)),*] };
 }
 
-/// A [`Message`]: the pieces of what is wrong, and behind a semicolon those of the hint.
+/// Makes a [`Message`]: the pieces of what is wrong, and after a semicolon those of the hint.
 macro_rules! message {
     ($($what:expr),+ $(; $($hint:expr),+)?) => {
         $crate::message::Message {
@@ -258,17 +259,17 @@ macro_rules! message {
 
 pub(crate) use {message, pieces};
 
-/// A field in brackets, for faces that have it: what stands before it says the same.
+/// A field in parentheses, for faces that have it, as an addition to the text before it.
 pub(crate) fn aside(field: Field) -> Piece {
     Piece::Where(field, pieces![" (", field, ")"])
 }
 
-/// A key that may be set, as a sentence has it that speaks of a site file.
+/// A key that may be set, in the wording for a site file.
 pub(crate) fn setting(table: &'static str, key: &'static str, written: &'static str) -> Piece {
     Piece::Setting { table: table.into(), key: key.into(), value: None, written: written.into(), field: None }
 }
 
-/// The same with the value that it is to have.
+/// The same with a value to set.
 pub(crate) fn set_to(table: &'static str, key: &'static str, value: String, written: String) -> Piece {
     Piece::Setting { table: table.into(), key: key.into(), value: Some(value), written: written.into(), field: None }
 }
@@ -296,19 +297,19 @@ impl From<String> for Message {
 }
 
 impl Message {
-    /// The same, said of a field or key: `step: …`.
+    /// The same message about a field or a key: `step: …`.
     pub(crate) fn of(mut self, at: Piece) -> Message {
         self.what.splice(..0, [at, ": ".into()]);
         self
     }
 
-    /// The same, whose subject is named: `tower.glb …`.
+    /// The same message with a subject: `tower.glb …`.
     pub(crate) fn about(mut self, subject: &str) -> Message {
         self.what.splice(..0, [Piece::from(format!("{subject} "))]);
         self
     }
 
-    /// The same of a site file, which has keys for fields.
+    /// The same message about a site file, whose fields are keys.
     pub(crate) fn of_keys(mut self) -> Message {
         let keyed = |piece: &mut Piece| {
             if let Piece::Field(field) = *piece {
@@ -341,7 +342,7 @@ impl Message {
         self
     }
 
-    /// The message in the words of a face, on one line: what is wrong, then what can be done.
+    /// The message in the words of a face, on one line: what is wrong, then the hint.
     pub fn in_words(&self, words: &dyn Words) -> String {
         let (mut text, mut hint) = (String::new(), String::new());
         write(&mut text, &self.what, words);
@@ -382,9 +383,9 @@ impl fmt::Display for Message {
     }
 }
 
-/// An error whose message names fields. Its `Display` is in [`PlainWords`].
+/// An error whose message names fields. Its `Display` uses [`PlainWords`].
 pub trait Worded {
-    /// What is wrong, and what can be done.
+    /// What is wrong, and the hint.
     fn message(&self) -> Message;
 
     /// The same in the words of a face.
@@ -393,7 +394,7 @@ pub trait Worded {
     }
 }
 
-/// `Display` of an error in plain words.
+/// Implements `Display` of an error in plain words.
 macro_rules! plain_display {
     ($error:ty) => {
         impl std::fmt::Display for $error {
@@ -406,15 +407,15 @@ macro_rules! plain_display {
 
 pub(crate) use plain_display;
 
-/// A distance; one that no map has is a mistake, and its digits say nothing.
+/// A distance in words. One that is larger than any map is a mistake, and its digits mean nothing.
 pub(crate) fn kilometres(km: f64) -> String {
     if km > 1e6 { "more than a million km".to_owned() } else { format!("{km:.0} km") }
 }
 
-/// Things for a message: the first of them, and how many more there are. `a`, `a and b`, `a, b and 7 more`.
+/// Lists things in a message: the first ones, and the number of the others. `a`, `a and b`, `a, b and 7 more`.
 pub(crate) fn few(mut items: Vec<String>) -> String {
     const MOST: usize = 5;
-    // never one more, where that one fits
+    // never "1 more", since that item would fit as well
     if items.len() > MOST {
         let more = items.len() - (MOST - 1);
         items.truncate(MOST - 1);

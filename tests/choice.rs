@@ -129,34 +129,34 @@ fn what_does_not_fit_names_the_choice_and_the_way_out() {
     let fit = |method: Method, engine, subject| told(method.row().fit(engine, subject).map(drop));
     assert_eq!(
         fit(Method::Projected, Engine::Auto, Subject::Side),
-        "technique: projected does not draw a side; take ray-cast"
+        "technique: projected does not draw a side; choose ray-cast"
     );
     assert_eq!(
         fit(Method::RayCast, Engine::Gpu, Subject::Side),
-        "engine: ray-cast draws a side on the cpu alone; leave it out, as nothing else draws that on the other machine"
+        "engine: ray-cast draws a side only on the cpu; leave it out, as no other technique draws that on the other engine"
     );
     assert_eq!(
         fit(Method::SoftTexture, Engine::Gpu, Subject::Camera),
-        "engine: soft-texture draws a camera's picture on the cpu alone; \
-         leave it out, or take stencil, shadow-map, hybrid or smoothie with gpu"
+        "engine: soft-texture draws a camera's picture only on the cpu; \
+         leave it out, or choose stencil, shadow-map, hybrid or smoothie with gpu"
     );
     // what would go with it is asked in the same way: a command that draws a plan has no view to choose
     let options =
         |method: Method, engine, subject| method.row().fit(engine, subject).expect_err("a misfit").in_words(&Options);
     let of_plan = options(Method::SoftTexture, Engine::Auto, Subject::Top);
-    assert!(of_plan.ends_with("; soft-texture goes with --receivers surfaces"), "{of_plan}");
+    assert!(of_plan.ends_with("; soft-texture can be used with --receivers surfaces"), "{of_plan}");
     let of_camera = options(Method::Projected, Engine::Auto, Subject::Camera);
-    assert!(of_camera.starts_with("--technique: ") && !of_camera.contains("goes with"), "{of_camera}");
+    assert!(of_camera.starts_with("--technique: ") && !of_camera.contains("can be used with"), "{of_camera}");
     let check =
         |method: Method, finder, settings| told(method.row().check(finder, &settings, Engine::Auto, Subject::Top));
     let map = Settings { map_size: Some(512), ..Settings::NONE };
     assert_eq!(
         check(Method::Stencil, Finder::Auto, map),
-        "map size: only shadow-map, hybrid and smoothie use it; take one of them, or leave it out"
+        "map size: only shadow-map, hybrid and smoothie use it; choose one of them, or leave it out"
     );
     assert_eq!(
         check(Method::Smoothie, Finder::Gpu, Settings::NONE),
-        "silhouette: smoothie uses brute and hextree alone; take one of them, or leave it out"
+        "silhouette: smoothie uses only brute and hextree; choose one of them, or leave it out"
     );
     let on_surfaces = Method::SoftTexture.row().check(Finder::Auto, &map, Engine::Auto, Subject::Patches);
     assert_eq!(told(on_surfaces), "map size: nothing that draws façades and roofs uses it; leave it out");
@@ -168,18 +168,18 @@ fn what_does_not_fit_names_the_choice_and_the_way_out() {
     };
     assert_eq!(
         on(Method::Stencil, disc, Engine::Gpu, Subject::Top),
-        "--sun-samples: only ray-cast uses it; take that technique without --engine gpu, or leave it out"
+        "--sun-samples: only ray-cast uses it; choose that technique without --engine gpu, or leave it out"
     );
     assert_eq!(
         on(Method::Projected, map, Engine::Cpu, Subject::Top),
-        "--map-size: only shadow-map, hybrid and smoothie use it; take one of them without --engine cpu, or leave it out"
+        "--map-size: only shadow-map, hybrid and smoothie use it; choose one of them without --engine cpu, or leave it out"
     );
     assert_eq!(
         on(Method::Stencil, map, Engine::Gpu, Subject::Top),
-        "--map-size: only shadow-map, hybrid and smoothie use it; take one of them, or leave it out"
+        "--map-size: only shadow-map, hybrid and smoothie use it; choose one of them, or leave it out"
     );
     assert_eq!(
         on(Method::Stencil, disc, Engine::Gpu, Subject::Patches),
-        "--sun-samples: only soft-texture uses it on the gpu; take that technique, or leave it out"
+        "--sun-samples: only soft-texture uses it on the gpu; choose that technique, or leave it out"
     );
 }

@@ -388,7 +388,7 @@ fn ctrl_c_ends_the_work_without_an_answer() {
     assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
     let told: Vec<String> = told.map(Result::unwrap).collect();
     assert_eq!((child.wait().unwrap().code(), told.last().unwrap().as_str()), (Some(130), "error: interrupted"));
-    assert!(told.iter().any(|line| line.contains("the same study goes on from there")), "{told:?}");
+    assert!(told.iter().any(|line| line.contains("the same study continues from there")), "{told:?}");
     // no file of the answer, and what it goes on from
     assert_eq!(crate::shared::program::numberless(&folder.path().join("out")), ["profile.N.unfinished"]);
 }

@@ -216,7 +216,7 @@ fn every_technique_holds_on_terrain() {
     let StudyError::Misfit(misfit) = refused else { panic!("{refused}") };
     assert_eq!(
         misfit.to_string(),
-        "engine: projected draws terrain as the plan's ground on the cpu alone; leave it out, or take stencil, \
+        "engine: projected draws terrain as the plan's ground only on the cpu; leave it out, or choose stencil, \
          shadow-map, hybrid or smoothie with gpu"
     );
     assert_eq!(Subject::Terrain.drawn_by(Engine::Cpu), ["projected", "ray-cast"]);

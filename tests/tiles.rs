@@ -305,9 +305,9 @@ fn a_study_that_was_stopped_among_its_tiles_goes_on_and_comes_to_the_same() {
             std::fs::copy(out.join(file.replace('N', &ours)), to).unwrap();
         }
         let told = stderr(&gnomon(path, &asked("other", other)));
-        assert!(told.contains("starts over") && !told.contains("goes on"), "{told}");
+        assert!(told.contains("starts over") && !told.contains("continues"), "{told}");
         let told = stderr(&gnomon(path, &asked("stopped", memory)));
-        assert!(told.contains("goes on where it was stopped, after"), "{told}");
+        assert!(told.contains("continues where it was stopped, after"), "{told}");
         same(path, &format!("{name}-whole"), &format!("{name}-stopped"));
         // sums of tiles that are gone are not taken for nothing
         if name == "ground" {
@@ -316,7 +316,7 @@ fn a_study_that_was_stopped_among_its_tiles_goes_on_and_comes_to_the_same() {
             crate::shared::program::stopped(path, &asked("stopped", memory), "60%");
             std::fs::remove_file(out.join(names[1].replace('N', &ours))).unwrap();
             let told = stderr(&gnomon(path, &asked("stopped", memory)));
-            assert!(told.contains("starts over") && !told.contains("goes on"), "{told}");
+            assert!(told.contains("starts over") && !told.contains("continues"), "{told}");
             same(path, &format!("{name}-whole"), &format!("{name}-stopped"));
         }
     }

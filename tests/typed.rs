@@ -56,9 +56,9 @@ fn what_is_no_number_is_refused() {
     ] {
         assert_eq!(number(text), Err(TypedError::Number(text.trim().to_owned())), "{text}");
     }
-    let told = within("0", 1e-6..=1e6, "metres a unit").unwrap_err().to_string();
-    assert_eq!(told, "0 is not between 0.000001 and 1000000 metres a unit");
-    assert_eq!(within("0,001", 1e-6..=1e6, "metres a unit"), Ok(0.001));
+    let told = within("0", 1e-6..=1e6, "metres per unit").unwrap_err().to_string();
+    assert_eq!(told, "0 is not between 0.000001 and 1000000 metres per unit");
+    assert_eq!(within("0,001", 1e-6..=1e6, "metres per unit"), Ok(0.001));
 }
 
 /// 48°12'30" is 48 + 12/60 + 30/3600 degrees.

@@ -203,7 +203,7 @@ fn a_study_stopped_at_its_drawing_says_where_it_goes_on() {
     killer.kill().unwrap();
     killer.wait().unwrap();
     assert_eq!(output.status.code(), Some(130), "{told}");
-    assert!(told.contains("100%") && told.contains("the same study goes on from there"), "{told}");
+    assert!(told.contains("100%") && told.contains("the same study continues from there"), "{told}");
     assert!(numberless(&bits).iter().any(|name| name == "profile.N.unfinished"));
     let told = stopped(path, &format!("{asked} --out short"), "100%");
     assert!(told.contains("is not kept; the same study starts over"), "{told}");
@@ -235,7 +235,7 @@ fn a_stopped_study_goes_on_and_comes_to_the_same() {
         longer.extend([0xA5; 777]);
         fs::write(&bits, longer).unwrap();
         let told = stderr(&gnomon(path, &asked("stopped")));
-        assert!(told.contains("goes on where it was stopped, after"), "{told}");
+        assert!(told.contains("continues where it was stopped, after"), "{told}");
         let [whole, stopped] = ["whole", "stopped"].map(|out| files(&path.join(format!("{name}-{out}"))));
         assert_eq!(whole.keys().collect::<Vec<_>>(), stopped.keys().collect::<Vec<_>>());
         for (file, bytes) in &whole {
@@ -260,7 +260,7 @@ fn what_another_study_left_is_not_used() {
         let short = if other == "--to 18:01" { short.replace("--to 18:00", other) } else { format!("{short} {other}") };
         let told = stderr(&gnomon(path, &short));
         assert!(
-            told.contains("keeps another study that was stopped") && !told.contains("goes on where"),
+            told.contains("keeps another study that was stopped") && !told.contains("continues where"),
             "{other}: {told}"
         );
         done(path, &format!("{short} --out alone"));
@@ -272,15 +272,15 @@ fn what_another_study_left_is_not_used() {
     // half a file is none
     fs::write(&file, &kept[..kept.len() - 1]).unwrap();
     let told = stderr(&gnomon(path, &asked));
-    assert!(told.contains("starts over") && !told.contains("goes on"), "{told}");
+    assert!(told.contains("starts over") && !told.contains("continues"), "{told}");
     // and the number of the study is looked at, not the file's name alone
     let short = asked.replace("3min", "2min");
     stopped(path, &short, "10%");
     fs::rename(left(&path.join("out")), &file).unwrap();
     let told = stderr(&gnomon(path, &asked));
-    assert!(told.contains("starts over") && !told.contains("goes on"), "{told}");
+    assert!(told.contains("starts over") && !told.contains("continues"), "{told}");
     fs::write(&file, &kept).unwrap();
-    assert!(stderr(&gnomon(path, &asked)).contains("goes on"));
+    assert!(stderr(&gnomon(path, &asked)).contains("continues"));
     assert_eq!(numberless(&path.join("out")), ["shadow-hours.tif"]);
 }
 
@@ -294,11 +294,11 @@ fn outlines_of_a_stopped_study_are_all_there() {
     stopped(path, asked, "14%");
     let kept = left(&path.join("out"));
     let told = stderr(&gnomon(path, &format!("{asked} --draw outlines")));
-    assert!(!told.contains("goes on where"), "{told}");
+    assert!(!told.contains("continues where"), "{told}");
     done(path, &format!("{asked} --draw outlines --out alone"));
     let [svg, alone] = ["out", "alone"].map(|out| fs::read(path.join(out).join("outlines.svg")).unwrap());
     assert!(svg == alone && kept.is_file());
-    assert!(stderr(&gnomon(path, asked)).contains("goes on where"));
+    assert!(stderr(&gnomon(path, asked)).contains("continues where"));
 }
 
 #[test]
@@ -344,12 +344,12 @@ fn what_another_stopped_study_wrote_is_not_taken_over() {
     stopped(path, &study("2026-06-18", "--bits --masks masks --out out"), "60%");
     stopped(path, &study("2026-09-18", "--out out"), "40%");
     let told = stderr(&gnomon(path, &study("2026-09-18", "--bits --masks masks --out out")));
-    assert!(!told.contains("goes on where"), "{told}");
+    assert!(!told.contains("continues where"), "{told}");
     // elsewhere is another study, too: what lies there already is not its own
     stopped(path, &study("2026-09-18", "--masks other --out there"), "40%");
     done(path, &study("2026-06-18", "--masks others --out another"));
     let told = stderr(&gnomon(path, &study("2026-09-18", "--masks others --out there")));
-    assert!(told.contains("keeps another study") && !told.contains("goes on where"), "{told}");
+    assert!(told.contains("keeps another study") && !told.contains("continues where"), "{told}");
     let [right, out] = ["right", "out"].map(|out| files(&path.join(out)));
     for (name, bytes) in right.iter().filter(|(name, _)| !name.starts_with("mask-")) {
         assert!(*bytes == out[name], "{name}");
@@ -369,7 +369,7 @@ fn what_another_stopped_study_wrote_is_not_taken_over() {
     let kept = ["profile.N.unfinished", "profile.json", "shadow-hours.tif", "shadow.bits.N.unfinished"];
     assert_eq!(numberless(&path.join("left")), kept);
     let told = stderr(&gnomon(path, &study("2026-09-18", "--bits --out left")));
-    assert!(told.contains("goes on where"), "{told}");
+    assert!(told.contains("continues where"), "{told}");
     assert!(files(&path.join("left"))["shadow.bits"] == right["shadow.bits"]);
     assert_eq!(numberless(&path.join("left")), ["profile.json", "shadow-hours.tif", "shadow.bits"]);
 }

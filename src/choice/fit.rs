@@ -1,35 +1,35 @@
-//! Checks which choices go together.
+//! Checks which choices fit together.
 
 use super::table::{Method, MethodRow, Setting, Subject, TABLE};
 use super::{Engine, Finder, Settings, listed};
 use crate::message::{Field, Message, Piece, Worded, pieces, plain_display};
 
-/// Two choices that do not go together.
+/// Two choices that do not fit together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Misfit {
     /// The technique does not draw that subject on any machine.
     Technique {
         /// The technique.
         method: Method,
-        /// What it was to draw.
+        /// The subject that it should draw.
         subject: Subject,
     },
-    /// The technique draws that subject only on the other machine.
+    /// The technique draws that subject only on the other engine.
     Engine {
         /// The technique.
         method: Method,
-        /// The machine that was asked.
+        /// The requested engine.
         engine: Engine,
-        /// What it was to draw.
+        /// The subject that it should draw.
         subject: Subject,
     },
     /// The technique does not use the option.
     Setting {
         /// The option.
         setting: Setting,
-        /// The machine that was asked.
+        /// The requested engine.
         engine: Engine,
-        /// What is drawn.
+        /// The subject.
         subject: Subject,
     },
     /// The technique cannot use the finder.
@@ -54,27 +54,27 @@ impl Misfit {
         match *self {
             Misfit::Technique { method, subject } => {
                 let others = listed(&subject.drawn_by(Engine::Auto), "or");
-                (format!("{method} does not draw {}", subject.name()), pieces![format!("take {others}")])
+                (format!("{method} does not draw {}", subject.name()), pieces![format!("choose {others}")])
             }
             Misfit::Engine { method, engine, subject } => {
                 let other = if engine == Engine::Gpu { Engine::Cpu } else { Engine::Gpu };
                 let hint = match subject.drawn_by(engine).as_slice() {
-                    [] => pieces!["leave it out, as nothing else draws that on the other machine"],
-                    others => pieces![format!("leave it out, or take {} with {engine}", listed(others, "or"))],
+                    [] => pieces!["leave it out, as no other technique draws that on the other engine"],
+                    others => pieces![format!("leave it out, or choose {} with {engine}", listed(others, "or"))],
                 };
-                (format!("{method} draws {} on the {other} alone", subject.name()), hint)
+                (format!("{method} draws {} only on the {other}", subject.name()), hint)
             }
             Misfit::Setting { setting, engine, subject } => users_and_hint(setting, engine, subject),
             Misfit::Finder { method } => {
                 let finders: Vec<_> = method.row().finders.iter().map(|finder| finder.word()).collect();
-                let what = format!("{method} uses {} alone", listed(&finders, "and"));
-                (what, pieces!["take one of them, or leave it out"])
+                let what = format!("{method} uses only {}", listed(&finders, "and"));
+                (what, pieces!["choose one of them, or leave it out"])
             }
         }
     }
 
-    /// What the technique would draw, where it does not draw what was asked: what is chosen in the same way, since a
-    /// command that draws a plan need not have views.
+    /// The subjects that the technique does draw, among those chosen by the same field, since a command that draws a
+    /// plan may not have views.
     fn draws_instead(&self) -> Option<(Method, Vec<Subject>)> {
         let (method, asked, instead) = match *self {
             Misfit::Technique { method, subject } => (method, subject, either(method.row())),
@@ -82,7 +82,7 @@ impl Misfit {
             Misfit::Engine { method, subject, .. } => (method, subject, method.row().on_cpu),
             Misfit::Setting { .. } | Misfit::Finder { .. } => return None,
         };
-        // two subjects may be asked by one word: which of them it is, the site says
+        // one word may mean two subjects, depending on the site
         let is_another_word = |subject: &&Subject| {
             let (field, word) = subject.choice();
             field == asked.choice().0 && word != asked.choice().1
@@ -93,7 +93,8 @@ impl Misfit {
     }
 }
 
-/// Who uses an option, and how they are asked for: without the machine that was asked, where none of them draws on it.
+/// The techniques that use an option, and the hint to choose one of them: without the requested engine if none of them
+/// draws on it.
 fn users_and_hint(setting: Setting, engine: Engine, subject: Subject) -> (String, Vec<Piece>) {
     let users = |engine| {
         let users = TABLE.iter().filter(|row| row.uses(setting) && row.draws(engine, subject));
@@ -111,13 +112,13 @@ fn users_and_hint(setting: Setting, engine: Engine, subject: Subject) -> (String
         users => (format!("only {} use it{on}", listed(users, "and")), "one of them"),
     };
     let hint = match there.is_empty() {
-        true => pieces!["take ", them, " without ", (Field::Engine, engine.word()), ", or leave it out"],
-        false => pieces!["take ", them, ", or leave it out"],
+        true => pieces!["choose ", them, " without ", (Field::Engine, engine.word()), ", or leave it out"],
+        false => pieces!["choose ", them, ", or leave it out"],
     };
     (what, hint)
 }
 
-/// What a technique draws on the machine where it draws more.
+/// The subjects that a technique draws on the engine where it draws more.
 fn either(row: &MethodRow) -> &'static [Subject] {
     if row.on_cpu.len() > row.on_gpu.len() { row.on_cpu } else { row.on_gpu }
 }
@@ -125,11 +126,11 @@ fn either(row: &MethodRow) -> &'static [Subject] {
 plain_display!(Misfit);
 
 impl Worded for Misfit {
-    /// With what the technique would draw, where it does not draw what was asked.
+    /// The message, with what the technique does draw.
     fn message(&self) -> Message {
         let (what, mut hint) = self.what_and_hint();
         if let Some((method, subjects)) = self.draws_instead() {
-            let mut instead = pieces![format!("; {method} goes with ")];
+            let mut instead = pieces![format!("; {method} can be used with ")];
             for (at, subject) in subjects.iter().enumerate() {
                 let gap = match at {
                     0 => "",
@@ -138,7 +139,7 @@ impl Worded for Misfit {
                 };
                 instead.extend(pieces![gap, subject.choice()]);
             }
-            // who has no such field has other ways to choose what is drawn
+            // a face without such a field has other ways to choose the subject
             hint.push(Piece::Where(Field::Receivers, instead));
         }
         Message { what: pieces![what], hint }.of(self.field().into())
@@ -148,10 +149,11 @@ impl Worded for Misfit {
 impl std::error::Error for Misfit {}
 
 impl MethodRow {
-    /// The machine that draws, if only technique and machine are chosen: the processor where the technique can use it.
+    /// The engine that draws if only the technique and the engine are chosen: the processor if the technique can use
+    /// it.
     ///
     /// # Errors
-    /// [`Misfit`] where the technique does not draw that, or not there.
+    /// [`Misfit`] if the technique does not draw the subject, or not on that engine.
     pub fn fit(&self, engine: Engine, subject: Subject) -> Result<Engine, Misfit> {
         let method = self.method;
         match engine {
@@ -163,7 +165,7 @@ impl MethodRow {
         }
     }
 
-    /// Returns an error if an option is given that the technique does not use; the machine that was asked is for the hint.
+    /// Refuses options that the technique does not use. The requested engine is for the hint.
     ///
     /// # Errors
     /// [`Misfit::Setting`], [`Misfit::Finder`].

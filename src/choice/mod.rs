@@ -1,7 +1,7 @@
 //! What people choose: technique, finder, engine, filter and receivers, and a table that says what each technique can
 //! do.
 //!
-//! The command's help, the window's menus, the documents, `verify` and the checks of what fits what
+//! The command's help, the window's menus, the documents, `verify` and the checks of what fits together
 //! ([`MethodRow::fit`], [`MethodRow::check`]) all read [`TABLE`]. A new technique is a row there.
 
 mod fit;
@@ -19,16 +19,16 @@ pub(crate) use words::{find, nearest, read, words};
 /// What is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Receivers {
-    /// The highest receiving surface under each cell, ground included.
+    /// The highest receiving surface under each cell, the ground included.
     #[default]
     Top,
-    /// The ground, as if the buildings only cast: the terrain from above where there is any, and the plane beyond it.
+    /// The ground, as if buildings only cast: the terrain seen from above if there is any, and the plane beyond it.
     Ground,
-    /// All patches of the models that receive, walls and undersides too, on their outer side.
+    /// All patches of receiving models, walls and undersides included, on their outer side.
     Patches,
 }
 
-/// Which silhouette finder bounds the volumes.
+/// The finder of silhouettes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Finder {
     /// The fastest one for the work.
@@ -42,7 +42,7 @@ pub enum Finder {
     Gpu,
 }
 
-/// How a shadow map's comparisons are filtered.
+/// The filter of a shadow map's comparisons.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Filter {
     /// No filter, the nearest texel alone: 2 levels.
@@ -55,7 +55,7 @@ pub enum Filter {
     FastFourByFour,
 }
 
-/// Which machine draws.
+/// The machine that draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Engine {
     /// The graphics adapter if there is one, otherwise the processor.
@@ -72,11 +72,11 @@ pub enum Engine {
 pub struct Settings {
     /// The number of texels along a shadow map's side.
     pub map_size: Option<u32>,
-    /// How the map's comparisons are filtered.
+    /// The filter of the map's comparisons.
     pub filter: Option<Filter>,
     /// The greatest width of smoothies, metres across the sun's rays.
     pub smoothie_width_m: Option<f64>,
-    /// The number of points of the sun's disc to which rays are cast.
+    /// The number of points of the sun's disc for ray casting.
     pub sun_samples: Option<u32>,
 }
 

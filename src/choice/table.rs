@@ -1,22 +1,22 @@
-//! The table of techniques: one row says what one technique can do.
+//! The table of techniques: one row for each technique's abilities.
 
 use super::{Engine, Filter, Finder, Settings};
 use crate::message::Field;
 
-/// What a technique draws a mask of.
+/// The subject of a mask.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Subject {
     /// The plan, on the highest surface under each cell.
     Top,
     /// The plan, on the ground alone.
     Ground,
-    /// The plan, on the terrain alone, where that is the ground.
+    /// The plan, on the terrain alone, if that is the ground.
     Terrain,
     /// What a camera sees in perspective.
     Camera,
     /// A side, or what the sun sees, along parallel rays.
     Side,
-    /// All flat patches of what receives.
+    /// All flat patches of the receivers.
     Patches,
 }
 
@@ -37,7 +37,7 @@ impl Subject {
         }
     }
 
-    /// The choice that asks for it.
+    /// The field and the value that ask for it.
     pub(super) fn choice(self) -> (Field, &'static str) {
         match self {
             Subject::Top => (Field::Receivers, "top"),
@@ -92,7 +92,7 @@ impl Setting {
     }
 }
 
-/// The truth with which a technique is compared.
+/// The truth that a technique is compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Truth {
     /// Ray casting to the sun's centre.
@@ -103,16 +103,16 @@ pub enum Truth {
     EveryFace,
 }
 
-/// What a technique promises, from the strictest on; the truth itself comes last.
+/// A technique's promise, from the strictest on; the truth itself comes last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Promise {
-    /// The truth, except for the rounding of corners at a shadow's edge. It decides whether the verification holds.
+    /// The truth, except for the rounding of corners at a shadow's edge. Decides whether the verification passes.
     Exact,
-    /// As exact, except where its map missed a caster or a gap. Those cells are counted separately.
+    /// Exact, except where its map misses a caster or a gap. Those cells are counted separately.
     ExactButForMap,
-    /// Something near the truth.
+    /// Approximately the truth.
     Near,
-    /// The truth itself. It also decides whether the verification holds.
+    /// The truth itself. Also decides whether the verification passes.
     Same,
 }
 
@@ -127,7 +127,7 @@ pub struct MethodRow {
     pub name: &'static str,
     /// What it is good for, in half a line.
     pub good_for: &'static str,
-    /// How wrong it can be.
+    /// Its possible errors.
     pub wrong: &'static str,
     /// The subjects that it draws on the processor.
     pub on_cpu: &'static [Subject],
@@ -141,31 +141,31 @@ pub struct MethodRow {
     pub defaults: Settings,
     /// Whether it counts shadow volumes, so that statistics of counting exist.
     pub counts: bool,
-    /// Whether its map decides some cells and volumes the others, so that a mask of who decided can be shown.
+    /// Whether its map decides some cells and volumes the others, so that a diagram of this can be shown.
     pub shows_mask: bool,
     /// Whether it blends 32-bit floats, which not every adapter supports.
     pub blends_float32: bool,
     /// The truth with which `verify` compares it.
     pub against: Truth,
-    /// What `verify` demands of it.
+    /// What `verify` requires of it.
     pub promise: Promise,
     /// The same on façades and roofs, against rays to the sun's centre; `None` where it draws none.
     pub on_patches: Option<Promise>,
 }
 
-/// The enum of techniques, with the table and the words, from one row each.
+/// Defines the enum of techniques, the table and the words from one list of rows.
 macro_rules! techniques {
     ($($(#[$of:meta])+ $name:ident: $word:literal, { $($field:ident: $value:expr,)+ })+) => {
-        /// How shadows are found.
+        /// The technique that finds shadows.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
         pub enum Method { $($(#[$of])+ $name),+ }
 
         impl Method {
-            /// The words of the choices, each with its choice.
+            /// The words with their techniques.
             pub const WORDS: &'static [(&'static str, Method)] = &[$(($word, Method::$name)),+];
         }
 
-        /// All techniques, in the order in which people see them; the first is `auto`.
+        /// All techniques in the order of help and menus; the first is `auto`.
         pub static TABLE: &[MethodRow] = &[$(MethodRow { method: Method::$name, word: $word, $($field: $value),+ }),+];
     };
 }
@@ -182,8 +182,8 @@ techniques! {
     #[default]
     Auto: "auto", {
         name: "the fastest exact technique",
-        good_for: "the fastest exact one for the work and the machine",
-        wrong: "as the one that it takes",
+        good_for: "the fastest exact one for the request and the machine",
+        wrong: "as the technique that it chooses",
         on_cpu: &Subject::ALL,
         on_gpu: &[Subject::Top, Subject::Ground, Subject::Terrain, Subject::Camera, Subject::Patches],
         finders: &[],
@@ -247,7 +247,7 @@ techniques! {
         promise: Promise::Near,
         on_patches: None,
     }
-    /// A depth map, and volumes where it cannot tell.
+    /// A depth map, and volumes where the map cannot decide.
     Hybrid: "hybrid", {
         name: "shadow map and volumes",
         good_for: "exact except for thin parts; quick where many of them cast volumes over each other",
@@ -301,7 +301,7 @@ techniques! {
     /// Ray casting.
     RayCast: "ray-cast", {
         name: "ray casting",
-        good_for: "exact, on the processor; with points of the sun's disc the soft edge of a real sun, as it is",
+        good_for: "exact, on the processor; with points of the sun's disc the exact soft edge of a real sun",
         wrong: "not at all, for the model as given",
         on_cpu: &Subject::ALL,
         on_gpu: &[],
@@ -321,7 +321,7 @@ impl Method {
     /// The row of the technique.
     #[doc(hidden)]
     pub fn row(self) -> &'static MethodRow {
-        // the table and the enum are made of the same list
+        // the table and the enum are made from the same list
         &TABLE[self as usize]
     }
 
@@ -344,8 +344,8 @@ impl MethodRow {
         }
     }
 
-    /// Whether the times at which single cells change can be searched between two instants: its masks are the truth but
-    /// for what it rounds or what its map misses, and the sun is a point.
+    /// Whether times of change of single cells can be found between two instants: its masks are the truth except for
+    /// rounding or what its map misses, and the sun is a point.
     pub fn finds_changes(&self, subject: Subject, sun_samples: Option<u32>) -> bool {
         sun_samples.is_none() && (subject == Subject::Patches || self.promise != Promise::Near)
     }
@@ -358,7 +358,7 @@ impl MethodRow {
         }
     }
 
-    /// The settings that it uses: as requested, otherwise its defaults. Settings that it does not use are absent.
+    /// The settings that it uses, as requested, otherwise its defaults. Settings that it does not use are absent.
     pub fn set(&self, asked: &Settings) -> Settings {
         let Settings { map_size, filter, smoothie_width_m, sun_samples } = *asked;
         let uses = |setting| self.uses(setting);

@@ -12,7 +12,7 @@ pub struct ChoiceError {
     pub nearest: &'static str,
 }
 
-/// Finds a word among the choices, or says which is nearest.
+/// Finds a word among the choices; the error names the nearest.
 pub(crate) fn find<T: Copy>(word: &str, choices: &[(&'static str, T)]) -> Result<T, ChoiceError> {
     if let Some((_, choice)) = choices.iter().find(|(name, _)| *name == word) {
         return Ok(*choice);
@@ -29,7 +29,7 @@ pub(crate) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a s
     let mut best = None;
     for candidate in candidates {
         let score = likeness(candidate);
-        // The first of equals stays.
+        // the first of equals is kept
         if best.is_none_or(|(most, _)| score > most) {
             best = Some((score, candidate));
         }
@@ -37,7 +37,7 @@ pub(crate) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a s
     best.map(|(_, candidate)| candidate)
 }
 
-/// `a`, `a and b`, `a, b and c`, with any word in place of `and`.
+/// `a`, `a and b`, `a, b and c`, with any word instead of `and`.
 pub fn listed(words: &[&str], and: &str) -> String {
     match words {
         [] => String::new(),
@@ -46,11 +46,11 @@ pub fn listed(words: &[&str], and: &str) -> String {
     }
 }
 
-/// Words ↔ choices, for one enum.
+/// Implements conversions between words and choices for an enum.
 macro_rules! words {
     ($choice:ty, [$($word:literal => $value:path),+ $(,)?]) => {
         impl $choice {
-            /// The words of the choices, each with its choice.
+            /// The words with their choices.
             pub const WORDS: &'static [(&'static str, $choice)] = &[$(($word, $value)),+];
 
             /// The word of the choice.
@@ -65,7 +65,7 @@ macro_rules! words {
     };
 }
 
-/// Reads and prints an enum by its `WORDS`.
+/// Implements parsing and printing of an enum by its `WORDS`.
 macro_rules! read {
     ($choice:ty) => {
         impl std::str::FromStr for $choice {

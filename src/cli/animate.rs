@@ -26,18 +26,18 @@ pub(super) struct AnimateArgs {
     draw: DrawArgs,
     #[command(flatten)]
     plan: PlanArgs,
-    /// From where
+    /// The view
     #[arg(long, value_name = "NAME", value_enum, default_value_t = Viewpoint::Plan)]
     view: Viewpoint,
-    /// How wide a picture is, 320 to 3508: the sheet that shadow draws, in fewer pixels
+    /// Width of a picture, 320 to 3508: the same drawing as shadow's, with fewer pixels
     #[arg(long, value_name = "PIXELS", default_value_t = WIDTH, allow_negative_numbers = true,
           value_parser = value_parser!(u32).range(320..=i64::from(figure::WIDTH)))]
     width: u32,
-    /// Pictures a second in the GIF, 1 to 50; each is shown for whole hundredths of a second, the nearest
+    /// Pictures per second in the GIF, 1 to 50, rounded to whole hundredths of a second per picture
     #[arg(long, value_name = "N", default_value_t = FPS, allow_negative_numbers = true,
           value_parser = value_parser!(u16).range(1..=50))]
     fps: u16,
-    /// The folder for the files
+    /// Folder for the files
     #[arg(long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
     #[command(flatten)]

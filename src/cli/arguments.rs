@@ -1,4 +1,4 @@
-//! The options as the user writes them. Each one stands only with the subcommands that use it.
+//! The options as the user writes them. Each is accepted only by the subcommands that use it.
 
 use super::draw::LinesArgs;
 use super::eye::Viewpoint;
@@ -17,7 +17,7 @@ use crate::study::verify::SIZE;
 use clap::{Args, ValueEnum, value_parser};
 use std::path::{Path, PathBuf};
 
-/// What every subcommand takes.
+/// The options of every subcommand.
 #[derive(Debug, Args)]
 pub(super) struct Common {
     /// Print the results as JSON
@@ -26,7 +26,7 @@ pub(super) struct Common {
     /// Print no progress and no notes
     #[arg(long)]
     pub(super) quiet: bool,
-    /// How many threads work on the processor [default: one a core]
+    /// Threads on the processor [default: one per core]
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024), allow_negative_numbers = true)]
     pub(super) threads: Option<u16>,
 }
@@ -34,8 +34,8 @@ pub(super) struct Common {
 /// The site: its files, its place and its ground.
 #[derive(Debug, Args)]
 pub(super) struct SiteArgs {
-    /// A site file, a folder that holds a site.toml, or one or more models; without a site file, a model's file or
-    /// --place says the place
+    /// A site file, a folder that contains a site.toml, or one or more models. Without a site file, the place comes
+    /// from a model's file or --place
     #[arg(value_name = "SITE", required = true)]
     paths: Vec<PathBuf>,
     #[command(flatten)]
@@ -44,13 +44,13 @@ pub(super) struct SiteArgs {
     ground: GroundArgs,
 }
 
-/// Where the models stand, and in which air.
+/// The place of the models, and the air.
 #[derive(Debug, Args)]
 pub(super) struct PlaceArgs {
-    /// Where the models stand, degrees north and east: 48.8583,2.2945 [default: where a model's file says]
+    /// The place of the models, degrees north and east: 48.8583,2.2945 [default: from a model's file]
     #[arg(long, value_name = "LAT,LON", allow_hyphen_values = true)]
     place: Option<String>,
-    /// Directions without the air's refraction
+    /// Directions without atmospheric refraction
     #[arg(long)]
     no_refraction: bool,
 }
@@ -58,31 +58,32 @@ pub(super) struct PlaceArgs {
 /// The study's window.
 #[derive(Debug, Args)]
 pub(super) struct WindowArgs {
-    /// The study's date: 2026-09-18
+    /// Date of the study: 2026-09-18
     #[arg(long, value_name = "DATE", allow_hyphen_values = true)]
     date: Option<String>,
-    /// Several days instead, with the same window on each: the first one. With --to-date
+    /// Several days with the same window: the first one. With --to-date
     #[arg(long, value_name = "DATE", allow_hyphen_values = true)]
     from_date: Option<String>,
-    /// The last of them, at most ten years later
+    /// The last of several days, at most ten years later
     #[arg(long, value_name = "DATE", allow_hyphen_values = true)]
     to_date: Option<String>,
-    /// Its beginning: 10:00, sunrise+1h30 [default: the site file's; without one the whole of each, with several days]
+    /// Beginning of the window: 10:00, sunrise+1h30 [default: from the site file; with several days, otherwise the
+    /// whole days]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     from: Option<String>,
-    /// Its end: 14:00, sunset-1h30 [default: as --from]
+    /// End of the window: 14:00, sunset-1h30 [default: as --from]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     to: Option<String>,
-    /// From instant to instant: 30min, 1h, 1h30, 90s
+    /// Time between instants: 30min, 1h, 1h30, 90s
     #[arg(long, value_name = "STEP", allow_hyphen_values = true)]
     step: Option<String>,
 }
 
-/// How exact hours are between instants.
+/// The precision of hours between instants.
 #[derive(Debug, Args)]
 pub(super) struct ResolutionArgs {
-    /// To within what time the changes of light between two instants are found: 1min, 10s; step for the instants alone
-    /// [default: on a single day 1min, or the step where that is shorter; on several days step]
+    /// Precision of the times at which light changes between two instants: 1min, 10s; step to use the instants alone
+    /// [default: on a single day 1min, or the step if that is shorter; on several days step]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     resolution: Option<String>,
 }
@@ -96,7 +97,7 @@ impl ResolutionArgs {
 /// The plan.
 #[derive(Debug, Args)]
 pub(super) struct PlanArgs {
-    /// Metres around the place: -300,-300,300,300 [default: models and shadows]
+    /// West, south, east and north border, metres from the place: -300,-300,300,300 [default: models and shadows]
     #[arg(long, value_name = "W,S,E,N", allow_hyphen_values = true)]
     region: Option<String>,
     /// Side of a cell, metres
@@ -111,7 +112,7 @@ pub(super) struct PlanArgs {
 }
 
 impl PlanArgs {
-    /// The options given.
+    /// The options that were given.
     pub(super) fn given(&self) -> Vec<&'static str> {
         let given = [
             ("--region", self.region.is_some()),
@@ -137,25 +138,26 @@ pub(super) struct ProfileArgs {
     draw: DrawArgs,
     #[command(flatten)]
     pub(super) plan: PlanArgs,
-    /// With --receivers surfaces: side of a texel on them, metres; larger where they would be too many [default: 0.25]
+    /// With --receivers surfaces: side of a texel, metres; larger if there would be too many [default: 0.25]
     #[arg(long, value_name = "M", allow_negative_numbers = true)]
     patch_cell: Option<f64>,
-    /// The folder for the files
+    /// Folder for the files
     #[arg(long, value_name = "DIR", default_value = "out")]
     pub(super) out: PathBuf,
-    /// Also every instant's bare mask, as mask-0000.png … in this folder
+    /// Also every instant's mask, as mask-0000.png … in this folder
     #[arg(long, value_name = "DIR")]
     pub(super) masks: Option<PathBuf>,
-    /// Also shadow.bits: one bit a cell for every instant with a sun, for questions that come later
+    /// Also shadow.bits: one bit per cell for every instant with a sun, for later analysis
     #[arg(long)]
     pub(super) bits: bool,
-    /// Memory for all that grows with the number of cells, as 512MiB or 2GB: where the plan takes more, it is done in tiles,
-    /// with the same results. Models, the program and the adapter's driver come on top [default: as much as it takes]
+    /// Memory for everything that grows with the number of cells, such as 512MiB or 2GB. A plan that needs more is done
+    /// in tiles, with the same results. Models, the program and the adapter's driver are not included [default: no
+    /// limit]
     #[arg(long, value_name = "SIZE", value_parser = memory::parse, allow_hyphen_values = true)]
     pub(super) memory: Option<u64>,
     #[arg(long, help = technique::stats())]
     pub(super) stats: bool,
-    /// Which files [default: png,tif,json; with --receivers surfaces png,glb,csv,json]
+    /// Files to write [default: png,tif,json; with --receivers surfaces png,glb,csv,json]
     #[arg(long, value_name = "png,tif,glb,csv,json", value_delimiter = ',')]
     write: Vec<ProfileFile>,
     #[command(flatten)]
@@ -180,10 +182,10 @@ pub(super) struct ShadowArgs {
     pub(super) site: SiteArgs,
     #[command(flatten)]
     model: ModelArgs,
-    /// The instant, local clock time: 2026-09-18T15:00
+    /// The instant in local time: 2026-09-18T15:00
     #[arg(long, value_name = "T", required = true, allow_hyphen_values = true)]
     at: Option<String>,
-    /// The date of an instant without one: 2026-09-18
+    /// Date for an instant without one: 2026-09-18
     #[arg(long, value_name = "DATE", allow_hyphen_values = true)]
     date: Option<String>,
     #[command(flatten)]
@@ -192,7 +194,7 @@ pub(super) struct ShadowArgs {
     pub(super) plan: PlanArgs,
     #[arg(long, help = technique::stats())]
     pub(super) stats: bool,
-    /// From where
+    /// The view
     #[arg(long, value_name = "NAME", value_enum, default_value_t = Viewpoint::Plan)]
     pub(super) view: Viewpoint,
     #[arg(long, value_name = "volumes,silhouette,components|mask|overdraw", value_delimiter = ',',
@@ -201,7 +203,7 @@ pub(super) struct ShadowArgs {
     /// The drawing [default: shadow.png, or none with --mask]
     #[arg(long, value_name = "FILE.png")]
     pub(super) out: Option<PathBuf>,
-    /// The bare mask: 255 sees the whole sun, 0 none
+    /// The mask: 255 sees the whole sun, 0 none of it
     #[arg(long, value_name = "FILE.png")]
     pub(super) mask: Option<PathBuf>,
     #[command(flatten)]
@@ -220,15 +222,15 @@ pub(super) enum ShowArg {
 
 #[derive(Debug, Args)]
 pub(super) struct SunArgs {
-    /// A site file, a folder that holds a site.toml, or a model; without a site file, the model's file or --place says
-    /// the place
+    /// A site file, a folder that contains a site.toml, or a model. Without a site file, the place comes from the
+    /// model's file or --place
     #[arg(value_name = "SITE")]
     pub(super) path: PathBuf,
     #[command(flatten)]
     place: PlaceArgs,
     #[command(flatten)]
     window: WindowArgs,
-    /// One instant instead of the study, local clock time: 2026-09-18T15:00
+    /// One instant instead of the study, in local time: 2026-09-18T15:00
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     at: Option<String>,
     #[command(flatten)]
@@ -237,13 +239,13 @@ pub(super) struct SunArgs {
 
 #[derive(Debug, Args)]
 pub(super) struct CheckArgs {
-    /// One or more models, or sites with their models. Several models are checked as one site; where a site is among them,
-    /// each is checked on its own
+    /// One or more models, or sites with their models. Several models are checked as one site; if there is a site among
+    /// them, each is checked separately
     #[arg(value_name = "MODEL", required = true)]
     paths: Vec<PathBuf>,
     #[command(flatten)]
     pub(super) model: ModelArgs,
-    /// List all names, all that was left out and all components that are not clean
+    /// List all names, everything that was left out, and all components that are not clean
     #[arg(long, conflicts_with = "json")]
     pub(super) all: bool,
     #[command(flatten)]
@@ -251,7 +253,7 @@ pub(super) struct CheckArgs {
 }
 
 impl CheckArgs {
-    /// What is checked together, each by its first path and the others.
+    /// What is checked together: each a first path, and the others.
     pub(super) fn together(&self) -> Vec<(&Path, Vec<PathBuf>)> {
         match self.paths.as_slice() {
             [first, others @ ..] if self.paths.iter().all(|path| is_model(path)) => vec![(first, others.to_vec())],
@@ -266,10 +268,10 @@ pub(super) struct VolumesArgs {
     pub(super) site: SiteArgs,
     #[command(flatten)]
     model: ModelArgs,
-    /// The instant, local clock time: 2026-09-18T15:00
+    /// The instant in local time: 2026-09-18T15:00
     #[arg(long, value_name = "T", required = true, allow_hyphen_values = true)]
     at: Option<String>,
-    /// The date of an instant without one: 2026-09-18
+    /// Date for an instant without one: 2026-09-18
     #[arg(long, value_name = "DATE", allow_hyphen_values = true)]
     date: Option<String>,
     /// The file
@@ -287,14 +289,14 @@ pub(super) struct VerifyArgs {
     model: ModelArgs,
     #[command(flatten)]
     window: WindowArgs,
-    /// One instant instead of the study, local clock time: 2026-09-18T15:00
+    /// One instant instead of the study, in local time: 2026-09-18T15:00
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     at: Option<String>,
     #[command(flatten)]
     finder: FinderArgs,
     #[command(flatten)]
     maps: MapArgs,
-    /// Points of the sun's disc to which rays are cast for smoothies, 1 to 1024 [default: 64]
+    /// Points of the sun's disc in ray casting for smoothies, 1 to 1024 [default: 64]
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=1024), allow_negative_numbers = true)]
     sun_samples: Option<u32>,
     #[command(flatten)]
@@ -354,13 +356,14 @@ impl ProfileArgs {
         Ok(Overrides { patch_cell: self.patch_cell, ..asked })
     }
 
-    /// The files asked, of those that there can be; all of them where none is named.
+    /// The requested files among the possible ones; by default all of those.
     pub(super) fn wanted(&self, possible: &[ProfileFile]) -> Result<Vec<ProfileFile>, WrongUse> {
         let word =
             |kind: &ProfileFile| kind.to_possible_value().map_or_else(String::new, |it| it.get_name().to_owned());
         if let Some(kind) = self.write.iter().find(|kind| !possible.contains(kind)) {
             let known: Vec<_> = possible.iter().map(word).collect();
-            let what = format!("--write {}: these receivers have {}; take one of them", word(kind), known.join(", "));
+            let what =
+                format!("--write {}: these receivers have only {}; choose from those", word(kind), known.join(", "));
             return Err(WrongUse(what));
         }
         Ok(if self.write.is_empty() { possible.to_vec() } else { self.write.clone() })

@@ -21,7 +21,7 @@ pub(super) struct Arguments {
     pub(super) command: Option<Command>,
 }
 
-/// The program's, and that of the rules of clocks.
+/// The version of the program, and that of the time zone database.
 fn version() -> &'static str {
     static VERSION: LazyLock<String> =
         LazyLock::new(|| format!("{} (tz {})", env!("CARGO_PKG_VERSION"), ZoneRules::newest().version()));
@@ -30,24 +30,24 @@ fn version() -> &'static str {
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
-    /// The window, with a site or a model in it
+    /// Open the window, with a site or a model in it
     Open(OpenArgs),
-    /// The shadow profile of the site's study: profile.png, shadow-hours.tif, profile.json. A study that was stopped
-    /// continues where it was when the same command is given again, except for outlines (--draw)
+    /// The shadow profile of a study: profile.png, shadow-hours.tif, profile.json. The same command continues a study
+    /// that was stopped, except with outlines (--draw)
     Profile(ProfileArgs),
     /// Two states of a site, existing and proposed: hours of sun lost and gained, with the areas, as compare.png,
-    /// shadow-hours-difference.tif and compare.json. Study, plan and ground of the first are taken for both
+    /// shadow-hours-difference.tif and compare.json. Study, plan and ground of the first state apply to both
     Compare(CompareArgs),
-    /// The shadows at one instant, as a drawing or as a bare mask
+    /// The shadows at one instant, as a drawing or as a mask
     Shadow(ShadowArgs),
-    /// The study's instants as pictures, frame-0000.png …, and as a GIF that moves, day.gif: what shadow draws, night too
+    /// The study's instants as pictures, frame-0000.png …, and as an animated GIF, day.gif, nights included
     Animate(AnimateArgs),
     /// The sun at the study's instants: time, azimuth, altitude, weight; sunrise, noon, sunset
     Sun(SunArgs),
-    /// What a model's file says (format, unit, axis, place, north), what was left out, and what its mesh is: components,
-    /// triangles, open, crowded, flipped and degenerate parts
+    /// The contents of a model's file (format, unit, axis, place, north), what was left out, and the state of its mesh:
+    /// components, triangles, open, crowded, flipped and degenerate parts
     Check(CheckArgs),
-    /// A model as it was read, with its components, as glTF in metres and y up: to look at, and for other programs
+    /// A model as it was read, with its components, as glTF in metres and y up, for viewing and for other programs
     Convert(ConvertArgs),
     /// The shadow volumes at one instant as solids down to the ground, in a .glb for other programs
     Volumes(VolumesArgs),
@@ -55,17 +55,17 @@ pub(super) enum Command {
     /// by how many hours
     #[command(mut_arg("size", |size| size.help("Cells along the longer side [default: 512]")))]
     Verify(VerifyArgs),
-    /// When points lie in the sun, on a day or over a range of dates: to the second, and what blocks in between
+    /// When points lie in the sun, on one day or a range of dates: to the second, with what blocks it at other times
     Probe(ProbeArgs),
-    /// The rules of authorities that are built in, with edition, source and options; or one of them as it is written
+    /// The built-in rules of authorities, with edition, source and options; or the text of one
     Rules(RulesArgs),
-    /// Reads a model for the program itself
+    /// Read a model for the program itself
     #[command(name = child::SUBCOMMAND, hide = true)]
     ReadModel(ReadModelArgs),
 }
 
 impl Command {
-    /// What every command takes that computes or reads a model.
+    /// The options of every subcommand that computes something or reads a model.
     pub(super) fn common(&self) -> Option<&Common> {
         Some(match self {
             Command::Open(_) | Command::Rules(_) | Command::ReadModel(_) => return None,
@@ -85,7 +85,7 @@ impl Command {
 
 #[derive(Debug, Args)]
 pub(super) struct OpenArgs {
-    /// A site file, a folder that holds a site.toml, or a model; the window asks for its place if its file does not say it
+    /// A site file, a folder that contains a site.toml, or a model; the window asks for the place if the file has none
     #[arg(value_name = "SITE|MODEL")]
     pub(super) path: PathBuf,
 }

@@ -50,7 +50,7 @@ pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
     }
 
     let site = Site::load(asked.site.path(), &asked.overrides()?)?;
-    // the site file may name the technique
+    // the site file may set the technique
     if diagram == Some(Diagram::Mask) && !site.method.row().shows_mask {
         let techniques = listed(&showing_mask(), "or");
         let what = format!("--show mask is the {techniques}'s; add --technique {techniques}, or leave it out");
@@ -77,22 +77,22 @@ pub(super) fn shadow(asked: &ShadowArgs) -> anyhow::Result<()> {
         return say(&answer.report);
     }
     let mut text = lines(&answer.written);
-    // Writing to a String cannot fail.
+    // writing to a String cannot fail
     let _ = writeln!(text, "{}", drawn_by(&answer.drawn, &site.ground));
     text.push_str(&answer.statistics.as_ref().map(took).unwrap_or_default());
     say(&text)
 }
 
-/// Which diagram is to be shown, if any; or why what is to be shown does not go together.
+/// The diagram to show, if any; or why the options contradict each other.
 fn check_show(asked: &ShadowArgs, is_drawn: bool) -> anyhow::Result<Option<Diagram>> {
     let wrong = |what: &str| Err(WrongUse(format!("--show {what}")).into());
     let diagrams = [(ShowArg::Mask, Diagram::Mask), (ShowArg::Overdraw, Diagram::Overdraw)];
     let diagram = diagrams.into_iter().find(|(show, _)| asked.show.contains(show)).map(|(_, diagram)| diagram);
     match (asked.show.as_slice(), asked.view) {
         ([], _) => Ok(None),
-        _ if !is_drawn => wrong("is for a drawing, and --mask alone makes none; add --out FILE.png"),
+        _ if !is_drawn => wrong("is for a drawing, but --mask alone makes none; add --out FILE.png"),
         ([_, _, ..], _) if diagram.is_some() => {
-            wrong("mask and overdraw stand instead of all else; show one of them alone")
+            wrong("mask and overdraw replace everything else; show one of them alone")
         }
         (show, Viewpoint::Plan) if diagram.is_none() => {
             // a side has no volumes
@@ -103,19 +103,19 @@ fn check_show(asked: &ShadowArgs, is_drawn: bool) -> anyhow::Result<Option<Diagr
     }
 }
 
-/// The paths of files, each in a line.
+/// The paths of files, one per line.
 pub(super) fn lines(written: &WrittenFiles) -> String {
     written.paths.iter().map(|path| format!("{}\n", path.display())).collect()
 }
 
-/// What counting took, in a line; cells are all of the picture's, those of the sky too.
+/// The cost of counting, in a line. Cells are those of the whole picture, the sky included.
 pub(super) fn took(statistics: &Statistics) -> String {
     let [with, without] = statistics.overdraw();
     let cells = statistics.cells.max(1) as f64;
     match statistics.silhouette_cells {
-        None => format!("overdraw: {without:.1} fragments of shadow volumes a cell\n"),
+        None => format!("overdraw: {without:.1} fragments of shadow volumes per cell\n"),
         Some(silhouette) => format!(
-            "silhouette cells: {:.2}% of all; overdraw: {with:.2} fragments of shadow volumes a cell, {without:.1} without the mask\n",
+            "silhouette cells: {:.2}% of all; overdraw: {with:.2} fragments of shadow volumes per cell, {without:.1} without the mask\n",
             100.0 * silhouette as f64 / cells
         ),
     }
@@ -147,7 +147,7 @@ pub(super) fn check(asked: &CheckArgs) -> anyhow::Result<()> {
     }
 }
 
-/// What is said of one site, or of models that stand together.
+/// The report on one site, or on models that stand together.
 fn check_one(asked: &CheckArgs, path: &Path, beside: &[PathBuf]) -> anyhow::Result<String> {
     let overrides = Overrides { beside: beside.to_vec(), ..asked.model.onto(nothing_asked()) };
     let LoadedMesh { mesh, frame, notes, models, references } = load_mesh(path, &overrides)?;
@@ -169,12 +169,12 @@ fn check_one(asked: &CheckArgs, path: &Path, beside: &[PathBuf]) -> anyhow::Resu
     }
 }
 
-/// How hours were found between a study's instants, in a line.
+/// How hours between a study's instants were found, in a line.
 pub(super) fn between(drawn: &Provenance, track: &SunTrack) -> String {
     report::between_instants(drawn, track).map_or_else(String::new, |said| format!("{said}\n"))
 }
 
-/// What drew, and on which ground: two lines, the last without its end.
+/// What drew, and the ground: two lines, the last without a line end.
 pub(super) fn drawn_by(drawn: &Provenance, ground: &Ground) -> String {
     let mut line = format!("{} on the {}", drawn.technique, drawn.engine);
     if let Some(adapter) = &drawn.adapter {

@@ -1,4 +1,4 @@
-//! `gnomon compare`: what a change of the site does to its shadow.
+//! `gnomon compare`: how a change of the site affects its shadow.
 
 use super::arguments::{Common, DrawArgs, PlaceArgs, PlanArgs, ResolutionArgs, WindowArgs};
 use super::commands::{between, drawn_by, lines};
@@ -15,10 +15,11 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub(super) struct CompareArgs {
-    /// The site as it is: a site file, a folder that holds a site.toml, or a model, whose file or --place says the place
+    /// The existing site: a site file, a folder that contains a site.toml, or a model, whose place is in its file or in
+    /// --place
     #[arg(value_name = "BEFORE")]
     before: PathBuf,
-    /// The site as it is to be; where it says no place, it has that of the first
+    /// The proposed site; if it has no place, that of the first is used
     #[arg(value_name = "AFTER")]
     after: PathBuf,
     #[command(flatten)]
@@ -35,7 +36,7 @@ pub(super) struct CompareArgs {
     draw: DrawArgs,
     #[command(flatten)]
     plan: PlanArgs,
-    /// The folder for the files
+    /// Folder for the files
     #[arg(long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
     #[command(flatten)]
@@ -61,7 +62,7 @@ pub(super) fn compare(asked: &CompareArgs) -> anyhow::Result<()> {
         return say(&answer.report);
     }
     let mut text = lines(&answer.written);
-    // Writing to a String cannot fail.
+    // writing to a String cannot fail
     let _ = writeln!(text, "{}", drawn_by(&answer.drawn, &pair.after.ground));
     text.push_str(&between(&answer.drawn, &pair.after.track));
     text.push_str(&answer.table);

@@ -33,10 +33,10 @@ pub(super) fn convert(asked: &ConvertArgs) -> anyhow::Result<()> {
     if !out.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("glb")) {
         return Err(WrongUse(format!("convert writes GLB; name a .glb file instead of {}", out.display())).into());
     }
-    // a site is several models, each with its own place
+    // a site may have several models, each with its own place
     if model.is_dir() || (model.is_file() && !is_model(model) && refusal(model).is_none()) {
         return Err(WrongUse(format!(
-            "convert reads one model, and {} is none; name a model file, for example tower.glb",
+            "convert reads one model, and {} is not a model; name a model file, for example tower.glb",
             model.display()
         ))
         .into());

@@ -1,4 +1,4 @@
-//! `gnomon profile --draw`: drawings of lines, beside the profile's other files.
+//! `gnomon profile --draw`: line drawings among the profile's files.
 
 use crate::deliver::lines::Lines;
 use clap::{Args, ValueEnum};
@@ -6,13 +6,13 @@ use clap::{Args, ValueEnum};
 /// What is drawn with lines.
 #[derive(Debug, Args)]
 pub(super) struct LinesArgs {
-    /// Also drawings of lines, each as PNG and SVG: hours (a labelled line for each whole hour of shadow), outlines (the
-    /// border of each instant's shadow with its time: at most 24 instants with a sun, in one window)
+    /// Also line drawings, each as PNG and SVG: hours (a labelled line for each whole hour of shadow), outlines (the
+    /// border of each instant's shadow with its time, for at most 24 instants with a sun, in one window)
     #[arg(long = "draw", value_name = "hours,outlines", value_delimiter = ',')]
     lines: Vec<Draw>,
 }
 
-/// A drawing of lines.
+/// A line drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Draw {
     Hours,
@@ -20,12 +20,12 @@ enum Draw {
 }
 
 impl LinesArgs {
-    /// Whether there is any.
+    /// Whether there are any.
     pub(super) fn given(&self) -> bool {
         !self.lines.is_empty()
     }
 
-    /// Those that are asked for, each once.
+    /// The requested ones, without repetition.
     pub(super) fn lines(&self) -> Vec<Lines> {
         let all = [(Draw::Hours, Lines::Hours), (Draw::Outlines, Lines::Outlines)];
         all.into_iter().filter(|(draw, _)| self.lines.contains(draw)).map(|(_, lines)| lines).collect()

@@ -1,4 +1,4 @@
-//! `--view`: the point from which the shadows are seen.
+//! `--view`: the view of the shadows.
 
 use super::wrong_use::WrongUse;
 use crate::site::Site;
@@ -6,14 +6,14 @@ use crate::study::FrameView;
 use crate::view::{Side, View};
 use clap::ValueEnum;
 
-/// From where the shadows are seen.
+/// The view of the shadows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Viewpoint {
     /// From above, north up
     Plan,
-    /// As the site's camera sees it: in perspective, or the side that it names
+    /// The site's camera: in perspective, or the side that the site file names
     Camera,
-    /// From the north: along parallel, level rays, true to scale
+    /// From the north, along parallel, horizontal rays, true to scale
     North,
     /// The same from the east
     East,
@@ -26,7 +26,7 @@ pub(super) enum Viewpoint {
 }
 
 impl Viewpoint {
-    /// The side that is named.
+    /// The side, if the view is one.
     pub(super) fn side(self) -> Option<Side> {
         match self {
             Viewpoint::Plan | Viewpoint::Camera | Viewpoint::Sun => None,
@@ -37,7 +37,7 @@ impl Viewpoint {
         }
     }
 
-    /// The view of a site that was asked for that side.
+    /// The view of a site that was requested with that side.
     pub(super) fn of(self, site: &Site) -> FrameView {
         match self {
             Viewpoint::Plan => FrameView::Still(View::Plan(site.grid)),
@@ -46,13 +46,13 @@ impl Viewpoint {
         }
     }
 
-    /// Errs where options of the plan are given, and none is drawn.
+    /// Refuses options of the plan for other views.
     pub(super) fn check(self, of_plan: &[&str]) -> Result<(), WrongUse> {
         match (self, of_plan) {
             (Viewpoint::Plan, _) | (_, []) => Ok(()),
             (_, [option, ..]) => {
                 let word = self.to_possible_value().map_or_else(String::new, |word| word.get_name().to_owned());
-                Err(WrongUse(format!("{option} is for the plan, and --view {word} has none; leave one out")))
+                Err(WrongUse(format!("{option} is for the plan, but --view {word} has none; leave one out")))
             }
         }
     }

@@ -12,7 +12,7 @@ pub(super) fn asked() -> &'static Arc<AtomicBool> {
     &ASKED
 }
 
-/// Hears Ctrl-C from now on. Where the system does not let us, it ends the program as it always does.
+/// Handles Ctrl-C from now on. If the system does not allow that, Ctrl-C ends the program as usual.
 pub(super) fn listen() {
     let _ = ctrlc::set_handler(|| {
         if ASKED.swap(true, Ordering::Relaxed) {

@@ -1,6 +1,6 @@
 //! `--memory`: reads a number of bytes as people write it.
 
-/// The units, and how many bytes each is.
+/// The units, and the bytes of each.
 const UNITS: [(&str, u64); 6] =
     [("KiB", 1 << 10), ("MiB", 1 << 20), ("GiB", 1 << 30), ("kB", 1_000), ("MB", 1_000_000), ("GB", 1_000_000_000)];
 

@@ -1,8 +1,8 @@
-//! The command: one face of the program. Options go in, files and answers come out. Each subcommand is a few lines; the
-//! work is done in `deliver`.
+//! The command: one face of the program. It takes options, and writes files and answers. Each subcommand is a few
+//! lines; the work is done in `deliver`.
 //!
-//! Results go to stdout, progress and notes to stderr. The exit status is 0 when done, 1 for a failure, 2 for wrong
-//! use, and 130 when interrupted.
+//! Results go to stdout, progress and notes to stderr. The exit status is 0 for success, 1 for a failure, 2 for wrong
+//! use, and 130 after an interruption.
 
 mod animate;
 mod arguments;
@@ -47,12 +47,12 @@ pub use options::Options;
 /// Opens the window, with a site or a model in it if one is named.
 pub type WindowOpener = fn(Option<&Path>) -> anyhow::Result<()>;
 
-/// Every subcommand and option, as they are parsed. `docs/command.md` is written from it.
+/// Every subcommand and option, as they are parsed. `docs/command.md` is generated from it.
 pub fn definition() -> clap::Command {
     Arguments::command()
 }
 
-/// Reads the command line and does what it says. Without a subcommand it opens the window, if the program has one.
+/// Parses the command line and runs the subcommand. Without one it opens the window, if the program has one.
 pub fn main(window: Option<WindowOpener>) -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
@@ -62,12 +62,12 @@ pub fn main(window: Option<WindowOpener>) -> ExitCode {
         (None, Some(window)) => window(None),
         (Some(Command::Open(asked)), Some(window)) => window(Some(&asked.path)),
         (Some(Command::Open(_)), None) => {
-            let what = "open: this gnomon was built without its window; build it with the feature desktop";
+            let what = "open: this gnomon was built without a window; build it with the feature desktop";
             Err(WrongUse(what.to_owned()).into())
         }
         (Some(command), _) => run(command),
         (None, None) => {
-            // Nobody is left to tell that stderr is closed.
+            // if stderr is closed there is nobody to tell
             let _ = write!(io::stderr(), "{}", Arguments::command().render_help());
             return ExitCode::from(2);
         }
@@ -83,15 +83,15 @@ pub fn main(window: Option<WindowOpener>) -> ExitCode {
 
 fn run(command: &Command) -> anyhow::Result<()> {
     if let Command::ReadModel(asked) = command {
-        // Ctrl-C ends it at once, as whoever asks for it
+        // Ctrl-C ends it at once, and its parent too
         return read_model::read_model(asked);
     }
     let threads = command.common().and_then(|common| common.threads);
-    // this thread is one of them: work does not go to and fro between it and others that wait meanwhile
+    // this thread is one of them, so work does not move between it and idle ones
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.map_or(0, usize::from)).use_current_thread();
     pool.build_global().map_err(|error| match threads {
-        Some(threads) => anyhow::anyhow!("--threads {threads}: {error}; take fewer"),
-        None => anyhow::anyhow!("the threads that work could not be made: {error}; say --threads with fewer"),
+        Some(threads) => anyhow::anyhow!("--threads {threads}: {error}; use fewer"),
+        None => anyhow::anyhow!("the worker threads could not be created: {error}; use --threads with fewer"),
     })?;
     interrupt::listen();
     match command {
@@ -106,7 +106,7 @@ fn run(command: &Command) -> anyhow::Result<()> {
         Command::Probe(asked) => probe::probe(asked),
         Command::Convert(asked) => convert::convert(asked),
         Command::Rules(asked) => rules::rules(asked),
-        // main's own, and answered above
+        // answered in `main`
         Command::Open(_) | Command::ReadModel(_) => Ok(()),
     }
 }
@@ -128,11 +128,11 @@ fn status(error: &anyhow::Error) -> u8 {
     }
 }
 
-/// What clap says: help and version as they are, a mistake in one line.
+/// Prints clap's output: help and version unchanged, a mistake on one line.
 fn refuse(error: &clap::Error) -> ExitCode {
     match error.kind() {
         ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
-            // A closed pipe wants no more help.
+            // a closed pipe wants no more help
             let _ = error.print();
             return ExitCode::SUCCESS;
         }
@@ -142,17 +142,17 @@ fn refuse(error: &clap::Error) -> ExitCode {
         _ => {
             let text = error.to_string();
             let told = text.lines().map(str::trim).take_while(|line| !line.starts_with("Usage:"));
-            // that an option could be a value is no help
+            // clap's tip that an option could be a value is not helpful
             let idle = |line: &str| ["For more", "tip: to pass"].iter().any(|idle| line.starts_with(idle));
             let told: Vec<_> = told.filter(|line| !line.is_empty() && !idle(line)).collect();
             let told = told.join("; ").replace("error: ", "").replace(":; ", ": ").replace("tip: ", "");
-            complain(&format!("{told}; --help says more"));
+            complain(&format!("{told}; see --help"));
         }
     }
     ExitCode::from(2)
 }
 
 fn complain(line: &str) {
-    // Nobody is left to tell that stderr is closed.
+    // if stderr is closed there is nobody to tell
     let _ = writeln!(io::stderr(), "error: {line}");
 }

@@ -9,26 +9,26 @@ use std::time::Duration;
 
 #[derive(Debug, Args)]
 pub(super) struct ModelArgs {
-    /// Which axis of the models is up, y or z, whatever the site file says [default: as the format has it]
+    /// Up axis of the models, y or z, whatever the site file says [default: as the file or its format has it]
     #[arg(long, value_name = "AXIS")]
     pub(super) up: Option<Up>,
-    /// The height of buildings whose footprints say none, metres [default: they are left out]
+    /// Height of buildings whose footprints have none, metres [default: they are left out]
     #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = height)]
     default_height: Option<f64>,
     #[command(flatten)]
     reading: ReadingArgs,
 }
 
-/// Within which limits models are read.
+/// The limits of reading models.
 #[derive(Debug, Args)]
 struct ReadingArgs {
-    /// Neither use what is kept of models that were read before, nor keep anything of them
+    /// Do not use the cache of models that were read before, and do not add to it
     #[arg(long)]
     no_cache: bool,
-    /// How long a reader that runs in a process of its own may take for a model [default: 10min]
+    /// Time limit for readers that run in a process of their own [default: 10min]
     #[arg(long, value_name = "TIME", value_parser = duration)]
     read_time: Option<Duration>,
-    /// How much memory such a reader may take, as 8GiB [default: three quarters of the machine's]
+    /// Memory limit for such readers, such as 8GiB [default: three quarters of the machine's]
     #[arg(long, value_name = "SIZE", value_parser = memory::parse)]
     read_memory: Option<u64>,
 }
@@ -50,13 +50,13 @@ impl ReadingArgs {
     }
 }
 
-/// Metres above zero.
+/// A height above 0, in metres.
 fn height(text: &str) -> Result<f64, String> {
     let height = text.parse().ok().filter(|height: &f64| height.is_finite() && *height > 0.0);
     height.ok_or_else(|| "write metres above 0, for example 9".to_owned())
 }
 
-/// As long as a step of a study.
+/// A time that is written like a study's step.
 fn duration(text: &str) -> Result<Duration, String> {
     match parse_duration_secs(text) {
         Ok(secs @ 1..) => Ok(Duration::from_secs(secs.into())),
@@ -64,11 +64,11 @@ fn duration(text: &str) -> Result<Duration, String> {
     }
 }
 
-/// How high the ground lies.
+/// The height of the ground.
 #[derive(Debug, Args)]
 pub(super) struct GroundArgs {
-    /// The ground's height, metres above the place's point [default: 0 where the models reach through 0, else their lowest
-    /// point]
+    /// Height of the ground, metres above the place's point [default: 0 if the models reach through 0, otherwise their
+    /// lowest point]
     #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
     ground: Option<f64>,
 }

@@ -5,7 +5,7 @@ use crate::formats::ModelReader;
 use crate::message::{Field, Words};
 use crate::site::Overrides;
 
-/// Nothing is asked yet; what is noted is noted in the command's words, and models are read as the program does.
+/// An empty request. Notes use the command's words, and models are read as the program does.
 pub(super) fn nothing_asked() -> Overrides {
     let reading = ModelReader::of_this_program().until(interrupt::asked());
     Overrides { words: &Options, reading, ..Overrides::default() }

@@ -1,8 +1,8 @@
-//! What the command prints on standard output, and how it names itself in the lock of a folder.
+//! Printing to standard output, and the command's name in the lock of a folder.
 
 use std::io::{self, Write};
 
-/// Without line breaks.
+/// Text on a single line.
 pub(super) fn words(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
@@ -13,7 +13,7 @@ pub(super) fn who() -> String {
     format!("gnomon {}", words.join(" "))
 }
 
-/// Prints a result. Who closed the pipe has read enough.
+/// Prints a result. A closed pipe is not an error.
 pub(super) fn say(text: &str) -> anyhow::Result<()> {
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {

@@ -1,4 +1,4 @@
-//! `gnomon profile --receivers surfaces`: hours of sun on the model itself.
+//! `gnomon profile --receivers surfaces`: hours of sun on the models' surfaces.
 
 use super::arguments::{ProfileArgs, ProfileFile};
 use super::commands::{between, drawn_by, lines};
@@ -22,7 +22,7 @@ pub(super) fn profile(asked: &ProfileArgs, site: &Site, watch: Stopwatch) -> any
     ];
     let of_masks = of_masks.into_iter().filter(|(_, given)| *given).map(|(option, _)| option);
     if let Some(option) = of_plan.chain(of_masks).next() {
-        let what = format!("{option} is for the plan, and --receivers surfaces has none; leave one of the two out");
+        let what = format!("{option} is for the plan, but --receivers surfaces has none; leave one of the two out");
         return Err(WrongUse(what).into());
     }
     let kinds = asked.wanted(&[ProfileFile::Png, ProfileFile::Glb, ProfileFile::Csv, ProfileFile::Json])?;
@@ -41,7 +41,7 @@ pub(super) fn profile(asked: &ProfileArgs, site: &Site, watch: Stopwatch) -> any
         return say(&answer.report);
     }
     let mut text = lines(&answer.written);
-    // Writing to a String cannot fail.
+    // writing to a String cannot fail
     let _ = writeln!(text, "{}", drawn_by(&answer.drawn, &site.ground));
     text.push_str(&between(&answer.drawn, &site.track));
     text.push_str(&answer.summary);

@@ -23,47 +23,48 @@ pub(super) struct ProbeArgs {
     site: SiteArgs,
     #[command(flatten)]
     model: ModelArgs,
-    /// One point instead of the site file's [[probe]]s, metres east, north, up of the place: 12,-3,4.5
+    /// One point instead of the site file's [[probe]]s, metres east, north and up of the place: 12,-3,4.5
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     point: Option<String>,
-    /// With --point: it lies in a plane that looks this way, as a window does, and sees what is in front of that alone
+    /// With --point: the direction that the point faces, like a window; it sees only what is in front of its plane
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     normal: Option<String>,
-    /// Points of a table instead, CSV whose first line is name,x,y,z,nx,ny,nz; the last three, a normal, may be absent or empty
+    /// Points from a table instead: CSV whose first line is name,x,y,z,nx,ny,nz; the last three, a normal, may be
+    /// absent or empty
     #[arg(long, value_name = "FILE.csv")]
     points: Option<PathBuf>,
-    /// Points on the components of this name, as `casts` knows names: IfcWindow. One in the middle of each connected
-    /// piece, on its outer side, which is the one more open to the sky. May be repeated
+    /// Points on the components with this name, as in `casts`: IfcWindow. One in the middle of each connected piece, on
+    /// its outer side, which is the one more open to the sky. May be repeated
     #[arg(long, value_name = "NAME")]
     on: Vec<String>,
-    /// With --on and --height: points so many metres from each other along the upright faces of these components
+    /// With --on and --height: points at this spacing in metres along the upright faces of these components
     #[arg(long, value_name = "M", allow_negative_numbers = true)]
     spacing: Option<f64>,
-    /// With --on and --spacing: so many metres above the ground
+    /// With --on and --spacing: the points' height above the ground, metres
     #[arg(long, value_name = "M", allow_negative_numbers = true)]
     height: Option<f64>,
     /// The day [default: the study's date]
     #[arg(long, value_name = "DATE", allow_hyphen_values = true)]
     date: Option<String>,
-    /// Several days instead: the first one. With --to-date
+    /// Several days: the first one. With --to-date
     #[arg(long, value_name = "DATE", allow_hyphen_values = true)]
     from_date: Option<String>,
-    /// The last of them, at most ten years later
+    /// The last of several days, at most ten years later
     #[arg(long, value_name = "DATE", allow_hyphen_values = true)]
     to_date: Option<String>,
-    /// On each day not before: 10:00, sunrise+1h30 [default: the whole day]
+    /// Beginning of the time on each day: 10:00, sunrise+1h30 [default: the whole day]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     from: Option<String>,
-    /// On each day not after: 14:00, sunset-1h30 [default: the whole day]
+    /// End of the time on each day: 14:00, sunset-1h30 [default: the whole day]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     to: Option<String>,
     /// A drawing: time of day across, days down
     #[arg(long, value_name = "FILE.png")]
     out: Option<PathBuf>,
-    /// A table with a line an interval: probe,start,end,seconds,blocked_before,blocked_after
+    /// A table with a line per interval: probe,start,end,seconds,blocked_before,blocked_after
     #[arg(long, value_name = "FILE.csv")]
     csv: Option<PathBuf>,
-    /// A table of the seconds in the sun a day, a month and a year: probe,unit,date,days,seconds,longest_seconds,intervals
+    /// A table of the seconds in the sun by day, month and year: probe,unit,date,days,seconds,longest_seconds,intervals
     #[arg(long, value_name = "FILE.csv")]
     totals: Option<PathBuf>,
     /// The sky of each point, as a stereographic and a cylindrical sun-path chart on one sheet: the sun's ways, hours of

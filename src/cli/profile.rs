@@ -40,7 +40,7 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
     }
     let mut text = lines(&answer.written);
     if let Some(folder) = &asked.masks {
-        // Writing to a String cannot fail.
+        // writing to a String cannot fail
         let _ = writeln!(text, "{} ({} masks)", folder.display(), answer.masks);
     }
     let _ = writeln!(text, "{}", drawn_by(&answer.drawn, &site.ground));
@@ -50,7 +50,7 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
     say(&text)
 }
 
-/// The range of the answer, in two lines.
+/// The range of the hours, in two lines.
 fn extent(answer: &ProfileAnswer, site: &Site) -> String {
     let (range, grid, instants) = (&answer.range, &site.grid, &site.track.instants);
     let night = instants.iter().filter(|instant| instant.night).count();

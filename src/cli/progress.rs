@@ -10,17 +10,17 @@ use std::io::{self, IsTerminal, Write};
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-/// What is shown while work goes on.
+/// The display of progress.
 pub(super) struct Progress {
     quiet: bool,
     /// What is counted.
     what: &'static str,
     bar: Option<ProgressBar>,
-    /// The tenth of the work that was told last.
+    /// The last tenth of the work that was reported.
     told: usize,
-    /// The notes so far: one that holds for both states of a site is printed once.
+    /// The notes so far, since one for both states of a site is printed once.
     noted: HashSet<String>,
-    /// What was done before, and since when it goes on.
+    /// The number of instants done before, and the time of the start.
     begun: (usize, Instant),
 }
 
@@ -29,7 +29,7 @@ impl Progress {
         Progress::of("instants", quiet)
     }
 
-    /// Where what is drawn is counted in something else.
+    /// A display for work that is counted in something else.
     pub(super) fn of(what: &'static str, quiet: bool) -> Progress {
         Progress { quiet, what, bar: None, told: 0, noted: HashSet::new(), begun: (0, Instant::now()) }
     }
@@ -51,14 +51,14 @@ impl Progress {
                     self.what = "instants, counted in each tile";
                 }
                 (self.begun, self.told) = ((0, Instant::now()), 0);
-                // One instant is done before a bar is seen.
+                // a single instant is done before a bar is seen
                 if *instants > 1 && io::stderr().is_terminal() {
                     self.bar = Some(bar(*instants, self.what));
                 }
             }
             Event::GoesOn { done } => {
                 self.begun.0 = *done;
-                self.line(&format!("note: goes on where it was stopped, after {done} {}", self.what));
+                self.line(&format!("note: continues where it was stopped, after {done} {}", self.what));
                 if let Some(bar) = &self.bar {
                     bar.set_position(*done as u64);
                     bar.reset_eta();
@@ -93,13 +93,13 @@ impl Progress {
         }
     }
 
-    /// Shows an event, and says whether the work goes on: not after Ctrl-C.
+    /// Shows an event. Returns whether the work continues: not after Ctrl-C.
     pub(super) fn heard(&mut self, event: &Event<'_>) -> ControlFlow<()> {
         self.hear(event);
         interrupt::flow()
     }
 
-    /// How long the rest takes, where that is seconds at least.
+    /// The time that the rest takes, if that is at least seconds.
     fn left(&self, done: usize, count: usize) -> String {
         let (before, since) = self.begun;
         let each = since.elapsed().as_secs_f64() / (done.saturating_sub(before)).max(1) as f64;
@@ -111,7 +111,7 @@ impl Progress {
         match &self.bar {
             Some(bar) => bar.println(line),
             None => {
-                // Nobody is left to tell that stderr is closed.
+                // if stderr is closed there is nobody to tell
                 let _ = writeln!(io::stderr(), "{line}");
             }
         }

@@ -1,6 +1,6 @@
 //! `gnomon read-model`: reads a model file and writes the model to standard output. The program starts this subcommand
-//! itself, in a process of its own. The parent process holds standard input open; when it closes, nobody needs the
-//! model any more.
+//! itself, as a child process. The parent holds the child's standard input open; when it closes, the model is no longer
+//! needed.
 
 use crate::formats::child;
 use clap::Args;

@@ -1,4 +1,4 @@
-//! `gnomon rules`: the rules that are built in.
+//! `gnomon rules`: the built-in rules.
 
 use super::output::say;
 use super::wrong_use::WrongUse;
@@ -15,13 +15,13 @@ pub(super) struct RulesArgs {
 
 #[derive(Debug, Subcommand)]
 enum RulesAction {
-    /// Print the rule as it is written, in TOML
+    /// Print a rule as it is written, in TOML
     Show(ShowRuleArgs),
 }
 
 #[derive(Debug, Args)]
 struct ShowRuleArgs {
-    /// The rule, as the list has it
+    /// The rule, by its name in the list
     #[arg(value_name = "ID")]
     id: String,
 }
@@ -36,12 +36,12 @@ pub(super) fn rules(asked: &RulesArgs) -> anyhow::Result<()> {
     }
 }
 
-/// Every rule in some lines, and what to do before one relies on it.
+/// Lists every rule in a few lines, with advice on relying on them.
 fn list(rules: &[Rule]) -> String {
     let mut text = String::new();
     for rule in rules {
         let of = &rule.source;
-        // Writing to a String cannot fail.
+        // writing to a String cannot fail
         let _ = writeln!(text, "{}\n  {}, {}", of.id, of.name, of.region);
         let _ = writeln!(text, "  {}: {}", of.kind, of.edition);
         let _ = writeln!(text, "  {} ({}): {}", of.confidence, of.confidence.meaning(), of.sources.join(", "));
@@ -50,16 +50,16 @@ fn list(rules: &[Rule]) -> String {
         }
         text.push('\n');
     }
-    text.push_str("Nothing here is legal advice: check with your authority which rule, edition and values hold.\n");
-    text.push_str("gnomon rules show ID prints a rule as it is written, with what it takes for granted.\n");
+    text.push_str("This is not legal advice: check with your authority which rule, edition and values hold.\n");
+    text.push_str("gnomon rules show ID prints a rule as it is written, with its assumptions.\n");
     text
 }
 
-/// One option in a line.
+/// An option in a line.
 fn said(option: &RuleOption) -> String {
     let takes = option.takes();
     match &option.default {
         Some(default) => format!("option {}: {takes} [default: {}]", option.name, default.text()),
-        None => format!("option {}: {takes} [must be said]", option.name),
+        None => format!("option {}: {takes} [required]", option.name),
     }
 }

@@ -1,4 +1,4 @@
-//! The values of options as they are written → as they are meant, with the option in what is wrong.
+//! Reads the values of options. Errors name the option.
 
 use crate::message::Field;
 use crate::site::typed::{self, TypedError};
@@ -45,7 +45,7 @@ fn vector(text: &str, example: (Field, &'static str)) -> Result<DVec3, TypedErro
     typed::numbers(text, example).map(DVec3::from_array)
 }
 
-/// What an option that is given says.
+/// Reads the value of an option, if it is given.
 fn read<T, E: Into<TypedError>>(
     field: Field,
     text: &Option<String>,

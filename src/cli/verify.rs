@@ -1,4 +1,4 @@
-//! `gnomon verify`: every technique against ray casting on the user's own site.
+//! `gnomon verify`: compares every technique with ray casting on the user's own site.
 
 use super::arguments::VerifyArgs;
 use super::output::say;

@@ -1,4 +1,4 @@
-//! `gnomon volumes`: the shadow volumes of one instant as solids in a file.
+//! `gnomon volumes`: the shadow volumes at one instant, as solids in a file.
 
 use super::arguments::VolumesArgs;
 use super::output::say;

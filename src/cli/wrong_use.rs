@@ -1,6 +1,6 @@
-//! Wrong use of the command that the command line alone reveals.
+//! Wrong use that only the command can detect.
 
-/// A mistake on the command line that only the command can see.
+/// A mistake on the command line that only the command can detect.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 pub(crate) struct WrongUse(pub(super) String);

@@ -1,19 +1,18 @@
-//! Converts many points of a map into the site's frame.
+//! Converts many points of a map to the site's frame.
 
 use super::{Crs, CrsKind, LocalFrame};
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// So many points are each converted exactly; of more, a lattice of exact conversions is, and the points between its nodes
-/// are interpolated.
+/// Up to this many points are converted exactly. For more, a lattice of exact conversions is computed and interpolated.
 const MOST_EXACT: usize = 100_000;
 
-/// The side of a lattice's cell, metres (degrees where the map has them): a projection's third derivative, some 1/R² a
-/// metre, makes less than a tenth of a millimetre of it, in latitudes below 85°.
+/// The side of a lattice's cell, metres (degrees for maps in degrees). A projection's third derivative of about 1/R²
+/// per metre makes an error of less than a tenth of a millimetre at latitudes below 85°.
 const CELL_M: f64 = 500.0;
 const CELL_DEG: f64 = 0.004;
 
-/// From a map to a place's frame.
+/// The conversion from a map to a place's frame.
 #[derive(Clone, Copy, Debug)]
 pub struct MapToLocal<'a> {
     /// The map's system.
@@ -23,15 +22,16 @@ pub struct MapToLocal<'a> {
 }
 
 impl MapToLocal<'_> {
-    /// A point of the map, as [`Crs::to_wgs84`] takes it.
+    /// Converts a point of the map, in the units of [`Crs::to_wgs84`].
     pub fn point(&self, at: DVec3) -> Option<DVec3> {
         self.frame.point(self.crs.to_wgs84(at)?)
     }
 
-    /// Many points, in place; the index of the first that the map does not reach, if there is one, or that lies too far away.
+    /// Converts many points in place.
     ///
     /// # Errors
-    /// That index; its point is then still what it was, and the others are of no use.
+    /// The index of the first point that is outside of the map or too far away. That point is unchanged, and the others
+    /// are undefined.
     pub fn convert(&self, points: &mut [DVec3]) -> Result<(), usize> {
         if points.len() > MOST_EXACT
             && self.crs.kind() != CrsKind::EarthCentred
@@ -51,19 +51,19 @@ impl MapToLocal<'_> {
     }
 }
 
-/// Exact conversions at the nodes of square cells, nine a cell, between which is interpolated by parabolas along both axes.
+/// Exact conversions at the nodes of square cells, nine per cell. Between them parabolas along both axes interpolate.
 struct Lattice {
     low: [f64; 2],
-    /// From one node to the next: half a cell.
+    /// The distance between nodes: half a cell.
     step: f64,
-    /// Cells along x and y.
+    /// The number of cells along x and y.
     cells: [usize; 2],
-    /// Row by row, at height 0.
+    /// Row by row, for height 0.
     nodes: Vec<DVec3>,
 }
 
 impl Lattice {
-    /// Around all points; none where that takes as long as the points themselves, or where the map does not reach.
+    /// A lattice over all points; `None` if it would take as long as the points themselves, or leaves the map.
     fn over(to: &MapToLocal, points: &[DVec3]) -> Option<Lattice> {
         let none = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         let wider = |(low, high): (DVec3, DVec3), at: &DVec3| (low.min(*at), high.max(*at));
@@ -92,7 +92,7 @@ impl Lattice {
         Some(Lattice { low: [low.x, low.y], step, cells, nodes })
     }
 
-    /// A point within, which keeps its height above the place.
+    /// Interpolates a point, which keeps its height above the place.
     fn at(&self, point: DVec3) -> DVec3 {
         let along = |axis: usize, value: f64| {
             let cell = ((value - self.low[axis]) / (2.0 * self.step)).floor().clamp(0.0, (self.cells[axis] - 1) as f64);

@@ -1,9 +1,9 @@
-//! Shifts of a reference system's datum to WGS 84. They use parameters alone, since the program has no grids.
+//! Shifts of datums to WGS 84, by parameters only, since the program has no grids.
 
-/// A definition that `proj4rs` can take, and what is to be known of its datum.
+/// A definition that `proj4rs` accepts, with information about its datum.
 pub(super) struct UsableText {
     pub(super) text: String,
-    /// The datum or its parameters; empty where it is WGS 84 to a metre.
+    /// The datum or its parameters; empty if it is WGS 84 to within a metre.
     pub(super) shift: String,
     pub(super) doubt: Option<&'static str>,
 }
@@ -13,12 +13,12 @@ const NAD27: &str = "+towgs84=-8,160,176";
 /// NZGD49 to WGS 84, EPSG:1564.
 const NZGD49: &str = "+towgs84=59.47,-5.04,187.44,0.47,-0.1,1.024,-4.5993";
 
-const NAD27_DOUBT: &str = "NAD27 is shifted by three parameters here, which are off by up to ten metres in the contiguous United States, and by \
+const NAD27_DOUBT: &str = "Gnomon shifts NAD27 by three parameters, which are off by up to ten metres in the contiguous United States, and by \
      more elsewhere";
 const UNKNOWN_DOUBT: &str =
     "how its datum is shifted to WGS 84 is not known here, so places in it may be off by some hundred metres";
 
-/// The same definition without grids: a definition that needs one is not usable, and no file that a text names is opened.
+/// Replaces grids in a definition by parameters, or refuses it. No file that a text names is opened.
 pub(super) fn usable(definition: &str) -> Result<UsableText, &'static str> {
     let mut tokens: Vec<&str> = Vec::new();
     let (mut shift, mut doubt, mut is_known) = (String::new(), None, false);
@@ -33,7 +33,7 @@ pub(super) fn usable(definition: &str) -> Result<UsableText, &'static str> {
                 tokens.push(NZGD49);
                 continue;
             }
-            ("nadgrids", _) => return Err("its datum is shifted by a grid, which Gnomon does not have"),
+            ("nadgrids", _) => return Err("shifting its datum needs a grid, which Gnomon does not have"),
             ("datum", "NAD27") => {
                 (shift, is_known, doubt) = (NAD27.to_owned(), true, Some(NAD27_DOUBT));
                 tokens.extend(["+ellps=clrk66", NAD27]);

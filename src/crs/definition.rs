@@ -1,8 +1,8 @@
-//! What a text that names a reference system means, and the error for a text that means none.
+//! The definition of a reference system, and the error for a text that does not name one.
 
 use crate::message::{Message, message};
 
-/// A system as it is found, before its arithmetic is set up.
+/// A system's definition, before its conversion is set up.
 #[derive(Debug)]
 pub(super) struct Definition {
     pub name: String,
@@ -12,7 +12,7 @@ pub(super) struct Definition {
     pub doubt: Option<&'static str>,
 }
 
-/// A text that a message can hold.
+/// A text shortened for a message.
 pub(super) fn shortened(text: &str) -> String {
     const MOST: usize = 60;
     let one_line: String = text.split_whitespace().collect::<Vec<_>>().join(" ");

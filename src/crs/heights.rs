@@ -1,8 +1,8 @@
-//! The units of vertical systems, which have definitions of their own and no projection.
+//! The units of vertical systems, which the projection library does not know.
 
 const US_SURVEY_FOOT_M: f64 = 1200.0 / 3937.0;
 
-/// All vertical systems of the EPSG's dataset that are not in metres, and metres of their unit.
+/// All vertical systems of the EPSG dataset that are not in metres, with the metres of their unit.
 const IN_FEET: &[(u32, f64)] = &[
     (5614, 0.3048),
     (5702, US_SURVEY_FOOT_M),
@@ -21,7 +21,8 @@ const IN_FEET: &[(u32, f64)] = &[
     (8897, 0.3048),
 ];
 
-/// Metres a unit of a vertical system, by its code; the first GeoTIFF's codes of vertical datums say none.
+/// Returns the unit of a vertical system in metres, by its code. The codes of vertical datums in the first GeoTIFF have
+/// no unit.
 pub fn vertical_unit_m(code: u32) -> Option<f64> {
     match (IN_FEET.iter().find(|(known, _)| *known == code), code) {
         (Some((_, unit_m)), _) => Some(*unit_m),

@@ -1,18 +1,18 @@
-//! The site's own frame: azimuthal equidistant around the place.
+//! The site's frame: azimuthal equidistant around the place.
 
 use super::{Crs, CrsKind, GeodeticPoint};
 use glam::{DVec2, DVec3};
 use proj4rs::Proj;
 use proj4rs::transform::transform;
 
-/// Beyond this distance, in metres, a model cannot be described in the flat frame.
+/// The distance beyond which a model cannot be described in the flat frame, metres.
 pub const TOO_FAR_M: f64 = 2.0e6;
 
-/// Metres to either side of a point between which directions are measured.
+/// The distance to either side of a point over which directions are measured, metres.
 const STEP_M: f64 = 50.0;
 
-/// Metres east and north of a place on the ellipsoid of WGS 84, with true distances and directions from it, and heights
-/// above its elevation. It is the frame of the GeoTIFF of hours.
+/// Metres east and north of a place on the WGS 84 ellipsoid, with true distances and directions from it, and heights
+/// above its elevation. It is also the frame of the GeoTIFF of hours.
 #[derive(Clone)]
 pub struct LocalFrame {
     proj: Proj,
@@ -38,22 +38,22 @@ impl LocalFrame {
         Some(LocalFrame { proj: Proj::from_proj_string(&text).ok()?, longlat, place })
     }
 
-    /// The height of its zero above the sea, metres.
+    /// The height of its origin above the sea, metres.
     pub fn elevation_m(&self) -> f64 {
         self.place.height_m
     }
 
-    /// The point of the Earth at its zero.
+    /// The point of the Earth at its origin.
     pub fn place(&self) -> GeodeticPoint {
         self.place
     }
 
-    /// A point of the Earth in this frame; `None` if it is too far away.
+    /// Converts a point of the Earth to this frame; `None` if it is too far away.
     pub fn point(&self, at: GeodeticPoint) -> Option<DVec3> {
         self.anywhere(at).filter(|local| local.truncate().length() <= TOO_FAR_M)
     }
 
-    /// How far a point of the Earth is from the place, metres; none where the frame's projection does not reach.
+    /// The distance of a point of the Earth from the place, metres; `None` if the projection does not reach it.
     pub fn distance_m(&self, at: GeodeticPoint) -> Option<f64> {
         Some(self.anywhere(at)?.truncate().length())
     }
@@ -65,7 +65,7 @@ impl LocalFrame {
         local.is_finite().then_some(local)
     }
 
-    /// A point of this frame on the Earth; none where it lies so far away that the frame says nothing of it.
+    /// Converts a point of this frame to the Earth; `None` if it is too far away for the frame.
     pub fn on_earth(&self, at: DVec3) -> Option<GeodeticPoint> {
         if !(at.is_finite() && at.truncate().length() <= TOO_FAR_M) {
             return None;
@@ -84,7 +84,7 @@ impl LocalFrame {
     pub fn true_north_rad(&self, at: GeodeticPoint) -> Option<f64> {
         let step = STEP_M / super::RADIUS_M.to_radians();
         let beside = |by: f64| self.point(GeodeticPoint { latitude_deg: at.latitude_deg + by, ..at });
-        // at a pole there is none; next to it one side is enough
+        // at a pole there is no north; next to it one side is enough
         let [south, north] = [-step, step].map(|by| beside(by).filter(|_| (at.latitude_deg + by).abs() < 90.0));
         let here = self.point(at);
         direction((north.or(here)? - south.or(here)?).truncate())
@@ -102,7 +102,7 @@ impl LocalFrame {
     }
 }
 
-/// Clockwise from north; none of no way at all.
+/// The clockwise angle from north; `None` for a zero vector.
 fn direction(way: DVec2) -> Option<f64> {
     (way.length_squared() > 0.0).then(|| way.x.atan2(way.y))
 }

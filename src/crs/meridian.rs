@@ -1,12 +1,13 @@
-//! The central meridian of a transverse Mercator map. Far from it the map is not valid.
+//! The central meridian of a transverse Mercator map, which is invalid far from it.
 
-/// As far from the middle meridian nobody maps, degrees of the equator: Norway's map in one zone of UTM reaches 6.
+/// The greatest distance from the central meridian that is used in practice, degrees at the equator: Norway's map in
+/// one UTM zone reaches 6.
 const FAR_DEG: f64 = 10.0;
 
-/// UTM ends at this latitude, degrees.
+/// The latitude at which UTM ends, degrees.
 const UTM_ENDS_DEG: f64 = 84.0;
 
-/// The middle meridian of a transverse Mercator map.
+/// The central meridian of a transverse Mercator map.
 #[derive(Clone, Copy)]
 pub(super) struct MiddleMeridian {
     longitude_deg: f64,
@@ -14,7 +15,8 @@ pub(super) struct MiddleMeridian {
 }
 
 impl MiddleMeridian {
-    /// Of a definition in PROJ's text; none of other projections, and of meridians that do not count from Greenwich.
+    /// Reads it from a definition in PROJ's text; `None` for other projections, and for meridians not counted from
+    /// Greenwich.
     pub(super) fn of(text: &str) -> Option<MiddleMeridian> {
         let value = |key: &str| {
             text.split_whitespace().find_map(|token| token.trim_start_matches('+').strip_prefix(key)?.strip_prefix('='))
@@ -35,7 +37,7 @@ impl MiddleMeridian {
         }
     }
 
-    /// Whether a point lies far outside of its map, degrees.
+    /// Whether a point, in degrees, is far outside of its map.
     pub(super) fn is_far_from(self, latitude_deg: f64, longitude_deg: f64) -> bool {
         let beside = (longitude_deg - self.longitude_deg + 180.0).rem_euclid(360.0) - 180.0;
         let is_beside = (beside * latitude_deg.to_radians().cos()).abs() > FAR_DEG || beside.abs() > 90.0;

@@ -1,9 +1,8 @@
-//! Coordinates of a map or of the Earth → longitude and latitude → metres around a place.
+//! Converts coordinates of a map or of the Earth to longitude and latitude, and to metres around a place.
 //!
 //! The definitions of the EPSG dataset come from `crs-definitions`, the arithmetic from `proj4rs`. Datums are shifted
-//! by the three or seven parameters of the definition, where surveyors would use grids. Heights above the sea stay as
-//! they are: a shift of the datum moves a point along the ground and leaves its height, since no one measures heights
-//! from an old ellipsoid.
+//! by the three or seven parameters of the definition, where surveyors would use grids. Heights above the sea are not
+//! changed: a datum shift moves a point horizontally only, since nobody measures heights from an old ellipsoid.
 
 mod convert;
 mod datums;
@@ -26,25 +25,25 @@ use proj4rs::Proj;
 use proj4rs::transform::transform;
 use std::sync::LazyLock;
 
-/// A text that is longer is no reference system.
+/// The longest text that is read as a reference system.
 const MOST_BYTES: usize = 64 * 1024;
 
-/// A point that does not come back by so much is not of the map, metres.
+/// A point belongs to a map if converting it there and back moves it by at most this, metres.
 const COMES_BACK_M: f64 = 1.0;
 
-/// So near to a map's zero are a drawing's own numbers and no map's, where the map keeps its zero away by a false
-/// easting or northing of at least so much, metres.
+/// Coordinates this close to a map's origin are a drawing's own and not the map's, if the map has a false easting or
+/// northing of at least this, metres.
 const NEAR_ZERO_M: f64 = 5_000.0;
 const FALSE_ORIGIN_M: f64 = 100_000.0;
 
-/// Metres to either side of a point between which the direction of the map's north is measured.
+/// The distance to either side of a point over which the direction of the map's north is measured, metres.
 const STEP_M: f64 = 50.0;
 
-/// WGS 84's longitudes and latitudes, in radians, as `proj4rs` has them.
+/// Longitudes and latitudes in WGS 84, in radians, as `proj4rs` expects them.
 static WGS84: LazyLock<Option<Proj>> =
     LazyLock::new(|| Proj::from_proj_string("+proj=longlat +datum=WGS84 +no_defs").ok());
 
-/// WGS 84's ellipsoid: its larger radius in metres, and the square of its eccentricity.
+/// The WGS 84 ellipsoid: its semi-major axis in metres, and the square of its eccentricity.
 const RADIUS_M: f64 = 6_378_137.0;
 const ECCENTRICITY_SQUARED: f64 = 0.006_694_379_990_141_316;
 
@@ -65,9 +64,9 @@ pub struct Crs {
     proj: Proj,
     name: String,
     kind: CrsKind,
-    /// Metres of a unit of heights, where the system has one of its own.
+    /// The unit of heights in metres, if the system has its own.
     height_unit_m: Option<f64>,
-    /// How the datum is shifted to WGS 84; empty where it is not.
+    /// The datum shift to WGS 84; empty if there is none.
     shift: String,
     doubt: Option<&'static str>,
     meridian: Option<MiddleMeridian>,
@@ -91,11 +90,11 @@ impl std::fmt::Debug for Crs {
 }
 
 impl Crs {
-    /// Reads what a file or a person writes: `EPSG:25832`, its forms as URN or URL, a compound system, a name, WKT, or
-    /// PROJ's text.
+    /// Reads a reference system as a file or a person writes it: `EPSG:25832`, its forms as URN or URL, a compound
+    /// system, a name, WKT, or PROJ's text.
     ///
     /// # Errors
-    /// What is wrong with it, and a hint; the subject is the text.
+    /// What is wrong, and a hint; the subject is the text.
     pub fn read(text: &str) -> Result<Crs, Message> {
         let text = text.trim();
         if text.is_empty() || text.len() > MOST_BYTES {
@@ -120,7 +119,7 @@ impl Crs {
             () if proj.is_geocent() => CrsKind::EarthCentred,
             () => CrsKind::Projected,
         };
-        // what has no inverse turns no point of a map into one of the Earth
+        // without an inverse, no point of the map can be converted to the Earth
         if !(proj.has_inverse() && proj.to_meter().is_finite() && proj.to_meter() > 0.0) {
             return Err(unusable("its projection has no inverse here".to_owned()));
         }
@@ -129,7 +128,7 @@ impl Crs {
         Ok(Crs { proj, name, kind, height_unit_m, shift: usable.shift, doubt: doubt.or(usable.doubt), meridian })
     }
 
-    /// Its name for people: `EPSG:25832 (ETRS89 / UTM zone 32N)`.
+    /// Its name in messages: `EPSG:25832 (ETRS89 / UTM zone 32N)`.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -139,7 +138,7 @@ impl Crs {
         self.kind
     }
 
-    /// The length of a unit of its eastings and northings in metres; 1 where these are degrees.
+    /// The length of a unit of its eastings and northings in metres; 1 if they are degrees.
     pub fn unit_m(&self) -> f64 {
         if self.kind == CrsKind::Geographic { 1.0 } else { self.proj.to_meter() }
     }
@@ -154,15 +153,15 @@ impl Crs {
         &self.shift
     }
 
-    /// A clause that says why places in it may be wrong by more than a few metres.
+    /// A clause on why positions in it may be wrong by more than a few metres.
     pub fn doubt(&self) -> Option<&'static str> {
         self.doubt
     }
 
-    /// A point of the map as a point of the Earth; `None` where the map does not reach.
+    /// Converts a point of the map to the Earth; `None` outside of the map.
     ///
-    /// x and y are in the system's units, or degrees; z is in metres and stays what it is, but where the system is
-    /// Earth-centred: then all three are in its unit, and the height is above the ellipsoid.
+    /// x and y are in the system's units, or degrees; z is in metres and is not changed. In a geocentric system all
+    /// three are in its unit, and the resulting height is above the ellipsoid.
     pub fn to_wgs84(&self, at: DVec3) -> Option<GeodeticPoint> {
         if !at.is_finite() {
             return None;
@@ -181,8 +180,8 @@ impl Crs {
         is_point.then_some(found)
     }
 
-    /// Whether a point lies far outside of the map, so that its numbers probably belong to another map, unit or order
-    /// of axes. Definitions name no area of use; this is what arithmetic can tell.
+    /// Whether a point is far outside of the map, so that its coordinates probably belong to another map, unit or axis
+    /// order. Definitions have no area of use; this is what arithmetic can tell.
     pub fn is_far_outside(&self, at: DVec3) -> bool {
         if self.kind != CrsKind::Projected {
             return false;
@@ -197,7 +196,7 @@ impl Crs {
         is_beside || is_at_zero || !self.comes_back(on_earth, at)
     }
 
-    /// Whether a point of the Earth is that of the map, by the forward conversion.
+    /// Whether converting a point of the Earth gives the point of the map again.
     fn comes_back(&self, on_earth: GeodeticPoint, at: DVec3) -> bool {
         let mut point = (on_earth.longitude_deg.to_radians(), on_earth.latitude_deg.to_radians(), 0.0);
         let found = WGS84.as_ref().and_then(|wgs84| transform(wgs84, &self.proj, &mut point).ok());
@@ -206,7 +205,7 @@ impl Crs {
     }
 
     /// The meridian convergence at a point of the map: radians clockwise from true north to the map's north. `None`
-    /// where the map does not reach, and for Earth-centred coordinates, which have no north.
+    /// outside of the map, and for geocentric coordinates, which have no north.
     pub fn convergence_rad(&self, easting: f64, northing: f64) -> Option<f64> {
         let step = match self.kind {
             CrsKind::EarthCentred => return None,
@@ -217,7 +216,7 @@ impl Crs {
         let (south, north) = (south?, north?);
         let latitude = ((south.latitude_deg + north.latitude_deg) / 2.0).to_radians();
         let turned = (north.longitude_deg - south.longitude_deg + 180.0).rem_euclid(360.0) - 180.0;
-        // the radii of the ellipsoid there: along the parallel, and along the meridian
+        // the ellipsoid's radii of curvature along the parallel and the meridian
         let w = 1.0 - ECCENTRICITY_SQUARED * latitude.sin().powi(2);
         let (along_parallel, along_meridian) = (latitude.cos(), (1.0 - ECCENTRICITY_SQUARED) / w);
         let east = turned * along_parallel;

@@ -1,4 +1,4 @@
-//! The names of reference systems: codes of the EPSG dataset in all their spellings, and the dataset's own names.
+//! The names of reference systems: codes of the EPSG dataset in all spellings, and the dataset's names.
 
 use super::definition::{Definition, shortened, unknown};
 use super::heights::vertical_unit_m;
@@ -6,12 +6,12 @@ use crate::message::Message;
 use rustc_hash::FxHashMap;
 use std::sync::LazyLock;
 
-/// Codes of others for systems of the EPSG dataset.
+/// Codes of other authorities for systems of the EPSG dataset.
 const OTHERS: &[(u32, u16)] = &[(900_913, 3857), (102_100, 3857), (102_113, 3857), (102_067, 5514)];
 
-/// Names that the dataset does not have, as they are compared.
+/// Names that the dataset does not have, in normalised form.
 const ALIASES: &[(&str, u16)] = &[
-    // several systems have these names; in files they are longitudes and latitudes
+    // several systems have these names; in files they mean longitudes and latitudes
     ("wgs84", 4326),
     ("etrs89", 4258),
     ("nad83", 4269),
@@ -25,8 +25,8 @@ const ALIASES: &[(&str, u16)] = &[
     ("sjtskkrovakeastnorth", 5514),
 ];
 
-/// The dataset's names as they are compared, whole and behind their last slash, and their codes; none where several systems
-/// have one.
+/// The dataset's names in normalised form, whole and after their last slash, with their codes; `None` for names of
+/// several systems.
 static NAMES: LazyLock<FxHashMap<String, Option<u16>>> = LazyLock::new(|| {
     let mut names: FxHashMap<String, Option<u16>> = FxHashMap::default();
     let mut add = |name: &str, code: u16, proj: &str| {
@@ -46,16 +46,16 @@ static NAMES: LazyLock<FxHashMap<String, Option<u16>>> = LazyLock::new(|| {
     names
 });
 
-/// The system that a text other than WKT names.
+/// Finds the system that a text other than WKT names.
 ///
 /// # Errors
-/// That it names none, or one that is not known.
+/// A text that is not a name, or an unknown system.
 pub(super) fn definition(text: &str) -> Result<Definition, Message> {
     let lower = text.to_lowercase();
     let codes = codes(&lower);
     if let Some(&code) = codes.first() {
         let found = by_code(code).ok_or_else(|| unknown(&format!("EPSG:{code}")))?;
-        // a second system on the ground says no unit of heights
+        // a second code of a horizontal system has no unit of heights
         let second = codes.get(1).filter(|&&code| by_code(code).is_none());
         let height_unit_m = second.and_then(|code| vertical_unit_m(*code));
         return Ok(Definition { height_unit_m, ..found });
@@ -79,7 +79,7 @@ pub(super) fn by_name(text: &str) -> Option<Definition> {
     by_code(code.into())
 }
 
-/// What the surveying offices of Germany call their systems: `urn:adv:crs:ETRS89_UTM32*DE_DHHN2016_NH`, `DE_DHDN_3GK3`.
+/// Names of the German surveying offices: `urn:adv:crs:ETRS89_UTM32*DE_DHHN2016_NH`, `DE_DHDN_3GK3`.
 fn of_surveys(name: &str) -> Option<u16> {
     let zone = |mark: &str, digits: usize| {
         let (_, behind) = name.split_once(mark)?;
@@ -104,8 +104,8 @@ pub(super) fn by_code(code: u32) -> Option<Definition> {
     })
 }
 
-/// The codes that stand behind `EPSG` or `ESRI` in lower-case text, or a number alone: the system on the ground first, then
-/// that of heights.
+/// The codes after `EPSG` or `ESRI` in lower-case text, or a number alone: first the horizontal system, then the
+/// vertical one.
 fn codes(lower: &str) -> Vec<u32> {
     if !lower.is_empty() && lower.bytes().all(|byte| byte.is_ascii_digit()) {
         return lower.parse().into_iter().collect();
@@ -117,8 +117,8 @@ fn codes(lower: &str) -> Vec<u32> {
     found.into_iter().flat_map(|(_, codes)| codes).collect()
 }
 
-/// The code behind a mark, and with a plus behind it another one: `:25832`, `::25832`, `/0/7415`, `:6.12:25832`,
-/// `.xml#4326`, `:25832+7837`.
+/// The code after a prefix, and a second one after a plus: `:25832`, `::25832`, `/0/7415`, `:6.12:25832`, `.xml#4326`,
+/// `:25832+7837`.
 fn codes_behind(behind: &str) -> Vec<u32> {
     let behind = behind.strip_prefix(".xml").unwrap_or(behind);
     let is_part = |letter: char| letter.is_ascii_digit() || ":/#._-+".contains(letter);
@@ -130,12 +130,12 @@ fn codes_behind(behind: &str) -> Vec<u32> {
     behind[..end].split('+').filter_map(code).collect()
 }
 
-/// The first text in quotes of WKT: the system's name.
+/// The first quoted text of WKT: the system's name.
 fn title(wkt: &str) -> &str {
     wkt.split('"').nth(1).unwrap_or_default()
 }
 
-/// A name as it is compared: its letters and digits, with years as the dataset writes them.
+/// Normalises a name: letters and digits only, with years as in the dataset.
 fn compared(name: &str) -> String {
     let plain: String = name.chars().filter(|letter| letter.is_alphanumeric()).flat_map(char::to_lowercase).collect();
     plain.replace("etrs1989", "etrs89").replace("wgs1984", "wgs84").replace("nad1983", "nad83")

@@ -1,33 +1,33 @@
-//! Reference systems in WKT, of either version. A system is recognised by the number in the EPSG dataset that the text
-//! names, by its name, or by its parameters, since the `.prj` files of some programs have no number.
+//! Reads reference systems in WKT of either version. A system is identified by its EPSG number, by its name, or by its
+//! parameters, since the `.prj` files of some programs have no number.
 
 use super::definition::{Definition, shortened, unknown};
 use super::names::{by_code, by_name};
 use crate::message::{Message, message};
 use std::fmt::Write as _;
 
-/// Brackets in brackets; real texts have eight.
+/// The deepest nesting of brackets; real texts have eight.
 const DEEPEST: usize = 24;
 
 /// `KEYWORD["text", 1.0, OTHER[…]]`
 #[derive(Debug, Default)]
 struct WktNode {
-    /// In capitals.
+    /// In upper case.
     keyword: String,
-    /// Its texts and numbers, in their order, without quotes.
+    /// Its texts and numbers, in order, without quotes.
     values: Vec<String>,
     nodes: Vec<WktNode>,
 }
 
-/// The system that a text in WKT means.
+/// Reads the definition in a WKT text.
 ///
 /// # Errors
-/// That it cannot be read, or names none that is known.
+/// Text that cannot be read, or an unknown system.
 pub(super) fn definition(text: &str) -> Result<Definition, Message> {
     let mut rest = text;
     let root = node(&mut rest, 0).ok_or_else(|| {
         message![
-            format!("{} is not whole as WKT", shortened(text));
+            format!("{} is not complete WKT", shortened(text));
             "write the system's number in the EPSG dataset instead, for example \"EPSG:25832\""
         ]
     })?;
@@ -46,7 +46,7 @@ pub(super) fn definition(text: &str) -> Result<Definition, Message> {
     Ok(Definition { height_unit_m: height_unit_m.or(found.height_unit_m), ..found })
 }
 
-/// Reads a node, and leaves what stands behind it.
+/// Reads a node, and leaves the text after it.
 fn node(rest: &mut &str, depth: usize) -> Option<WktNode> {
     let open = rest.find(['[', '('])?;
     let keyword = rest[..open].trim().to_uppercase();
@@ -89,12 +89,12 @@ impl WktNode {
         self.nodes.iter().find(|node| keywords.contains(&node.keyword.as_str()))
     }
 
-    /// The first node of some keywords below this one, at any depth.
+    /// The first node below this one, at any depth, with one of some keywords.
     fn below(&self, keywords: &[&str]) -> Option<&WktNode> {
         self.child(keywords).or_else(|| self.nodes.iter().find_map(|node| node.below(keywords)))
     }
 
-    /// Its number in the EPSG dataset.
+    /// Its EPSG number.
     fn code(&self) -> Option<u32> {
         let ids = self.nodes.iter().filter(|node| matches!(node.keyword.as_str(), "AUTHORITY" | "ID"));
         let of_epsg = ids.filter(|id| id.name().eq_ignore_ascii_case("EPSG") || id.name().eq_ignore_ascii_case("ESRI"));
@@ -121,7 +121,7 @@ impl WktNode {
         GROUND.contains(&self.keyword.as_str())
     }
 
-    /// Metres of its unit of lengths: its own, or that of its axes.
+    /// The unit of length in metres: its own, or that of its axes.
     fn unit(&self) -> Option<f64> {
         let units = &["UNIT", "LENGTHUNIT"];
         let unit = self.child(units).or_else(|| self.child(&["AXIS"])?.child(units))?;
@@ -129,7 +129,7 @@ impl WktNode {
     }
 }
 
-/// PROJ's words for the parameters of a map, and what they are called in either version, as they are compared.
+/// PROJ's names of map parameters, with their normalised names in both WKT versions.
 const PARAMETERS: &[(&str, &[&str])] = &[
     ("lat_0", &["latitudeoforigin", "latitudeofnaturalorigin", "latitudeoffalseorigin", "latitudeofcenter"]),
     (
@@ -149,7 +149,7 @@ const PARAMETERS: &[(&str, &[&str])] = &[
     ("lat_2", &["standardparallel2", "latitudeof2ndstandardparallel"]),
 ];
 
-/// The projections whose parameters mean the same everywhere.
+/// The projections whose parameters always have the same meaning.
 const METHODS: &[(&str, &[&str])] = &[
     ("tmerc", &["transversemercator", "gausskruger"]),
     (
@@ -166,7 +166,7 @@ const METHODS: &[(&str, &[&str])] = &[
     ("sterea", &["obliquestereographic", "doublestereographic"]),
 ];
 
-/// Datums that are WGS 84 to a metre, and some that are shifted: as they are compared, without the `D_` of some programs.
+/// Datums that are WGS 84 to within a metre, and some with a shift; normalised names without the `D_` of some programs.
 const DATUMS: &[(&str, &str)] = &[
     ("wgs1984", "+datum=WGS84"),
     ("worldgeodeticsystem1984", "+datum=WGS84"),
@@ -189,7 +189,7 @@ fn compared(name: &str) -> String {
     name.chars().filter(|letter| letter.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
 
-/// PROJ's text for a map or a globe without a number; none where a part of it is not known.
+/// PROJ's text for a system without a number; `None` if a part of it is unknown.
 fn by_parameters(crs: &WktNode) -> Option<Definition> {
     let datum = datum(crs)?;
     let name = shortened(crs.name());
@@ -208,20 +208,20 @@ fn by_parameters(crs: &WktNode) -> Option<Definition> {
         let (key, _) = PARAMETERS.iter().find(|(_, names)| names.contains(&called.as_str()))?;
         let value = parameter.number(1)?;
         let is_length = matches!(*key, "x_0" | "y_0");
-        // in the second version each parameter has its unit, in the first it is the map's
+        // in version 2 each parameter has its unit, in version 1 it is the map's
         let own = parameter.child(&["LENGTHUNIT", "UNIT"]).and_then(|unit| unit.number(1));
         let metres = own.unwrap_or(if list.keyword == "CONVERSION" { 1.0 } else { unit });
-        // Writing to a String cannot fail.
+        // writing to a String cannot fail
         let _ = write!(text, " +{key}={}", if is_length { value * metres } else { value });
     }
     text.push_str(" +no_defs");
     Some(definition(text))
 }
 
-/// The datum's part of PROJ's text: a known one, or its ellipsoid with the shift that the text has.
+/// The datum part of PROJ's text: a known datum, or its ellipsoid with the shift in the text.
 fn datum(crs: &WktNode) -> Option<String> {
     let datum = crs.below(&["DATUM", "GEODETICDATUM", "ENSEMBLE"])?;
-    // degrees from Greenwich alone, so that no angle is taken for another
+    // only degrees relative to Greenwich, so that no angle is misread
     let meridian = crs.below(&["PRIMEM", "PRIMEMERIDIAN"]).and_then(|meridian| meridian.number(1)).unwrap_or(0.0);
     let name = compared(datum.name().trim_start_matches("D_"));
     let known = DATUMS.iter().find(|(known, _)| *known == name).map(|(_, text)| (*text).to_owned());

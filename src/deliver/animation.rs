@@ -1,5 +1,5 @@
-//! The animation: the study's instants as pictures, and as a GIF. Both lie in one folder, and the GIF is made when all
-//! pictures are there.
+//! The animation: the study's instants as pictures, and as a GIF. Both are in one folder, and the GIF is made once all
+//! pictures exist.
 
 use super::parts::{DrawnView, figure_context, note, note_letters, report_context};
 use super::{DeliverError, Folder, Sink, WrittenFiles};
@@ -19,22 +19,22 @@ pub(crate) const FPS: u16 = 4;
 /// The request for an animation.
 #[derive(Clone, Debug)]
 pub struct AnimationRequest {
-    /// From where the site is seen.
+    /// The view of the site.
     pub view: FrameView,
-    /// How wide a picture is, pixels.
+    /// The width of a picture, pixels.
     pub width: u32,
-    /// Pictures a second in the GIF; each is shown for whole hundredths of a second.
+    /// Pictures per second in the GIF. Each is shown for a whole number of hundredths of a second.
     pub fps: u16,
-    /// Runs since before the site was read.
+    /// A stopwatch that has been running since before the site was read.
     pub watch: Stopwatch,
 }
 
-/// What came of it.
+/// The result of an animation.
 #[derive(Clone, Debug)]
 pub struct AnimationAnswer {
     /// The GIF.
     pub gif: PathBuf,
-    /// The frames, in their order.
+    /// The frames, in order.
     pub frames: WrittenFiles,
     /// The report in JSON.
     pub report: String,
@@ -46,7 +46,7 @@ pub struct AnimationAnswer {
 /// each frame that is added to the GIF.
 ///
 /// # Errors
-/// [`DeliverError`]; too many instants, and what cannot be written, before anything is drawn.
+/// [`DeliverError`]. Too many instants, and files that cannot be written, are refused before anything is drawn.
 pub fn animation(
     site: &Site,
     asked: &AnimationRequest,
@@ -58,7 +58,7 @@ pub fn animation(
         return Err(DeliverError::TooManyFrames { count, most: MOST_FRAMES });
     }
     let first_view = asked.view.at_first(site)?;
-    // without the folder, which the sink names
+    // relative names: the sink knows the folder
     let open = Sink::Folder(folder).open(&Frames::outputs(Path::new(""), count), None)?;
     let mut watch = asked.watch.clone();
     watch.lap("load");
@@ -73,7 +73,7 @@ pub fn animation(
     })?;
     watch.lap("frames");
     open.check()?;
-    // for whole hundredths of a second
+    // in whole hundredths of a second
     let mut gif = frames.gif((100.0 / f64::from(asked.fps)).round() as u16)?;
     for index in 0..count {
         tell(on_event, Event::Stage("gif"))?;
@@ -89,7 +89,6 @@ pub fn animation(
     Ok(AnimationAnswer { gif, frames: WrittenFiles { paths, files: Vec::new() }, report, drawn })
 }
 
-/// Draws the frames.
 fn draw(
     site: &Site,
     asked: &AnimationRequest,

@@ -1,4 +1,4 @@
-//! The comparison: what a change of a site does to its sun, as a drawing, a raster and a report.
+//! The comparison: how a change of a site affects its sun, as a drawing, a raster and a report.
 
 use super::parts::{DrawnView, figure_context, note, note_letters, report_context};
 use super::profile::{ProfileRequest, StudyStore, find_kept};
@@ -29,10 +29,10 @@ pub struct ComparisonAnswer {
     pub table: String,
 }
 
-/// Compares two states of a site. The stopwatch has been running since before they were read.
+/// Compares two states of a site. The stopwatch must have been running since before they were read.
 ///
 /// # Errors
-/// [`DeliverError`]; what does not go together, and what cannot be written, before anything is drawn.
+/// [`DeliverError`]. Contradictory requests, and files that cannot be written, are refused before anything is drawn.
 pub fn comparison(
     pair: &Pair,
     mut watch: Stopwatch,
@@ -54,9 +54,9 @@ pub fn comparison(
     Ok(answer)
 }
 
-/// Finds a comparison that is to be shown; the state before may already be known. If a study of one state is stopped,
-/// it is kept in `shelf` (which keeps the newest ones), and continues when the same request is made again. Nothing is
-/// kept while another study works there.
+/// Computes a comparison to be shown; the state before may already be known. If a study of one state is stopped, it is
+/// kept in `shelf` (which keeps the newest ones), and continues when the same request is made again. Nothing is kept
+/// while another study works there.
 ///
 /// # Errors
 /// As [`comparison()`].
@@ -69,15 +69,15 @@ pub fn find_comparison(
     shelf::find(shelf, on_event, |folder, on_event| {
         let (outcome, stores) = find(pair, before.cloned(), folder, true, on_event)?;
         for store in stores {
-            // what cannot be removed now is removed once newer studies are kept
+            // what cannot be removed now will be removed when newer studies are kept
             let _ = store.finish();
         }
         Ok(outcome)
     })
 }
 
-/// Finds the comparison, and continues what the study of either state left in the folder when it was stopped. Where it
-/// `is_shown`, the folder is a shelf, and the states' names stand beside it.
+/// Computes the comparison, and continues the stopped study of either state in the folder. If it `is_shown`, the folder
+/// is a shelf, and the files have the states' names.
 fn find<'a>(
     pair: &Pair,
     before: Option<Outcome>,
@@ -98,7 +98,7 @@ fn find<'a>(
     let before = match before {
         Some(before) => before,
         None => {
-            // which study that of the state after is shows itself when its machine is chosen
+            // the study of the state after is only known when its machine is chosen
             let (before, store) = outcome("before", &pair.before, &pair.names[0], Beside::Unknown)?;
             stores.push(store);
             before
@@ -110,7 +110,7 @@ fn find<'a>(
     Ok((CompareOutcome::new(pair, before, after), stores))
 }
 
-/// Writes a comparison that was found. The stopwatch runs on from there.
+/// Writes a comparison. The stopwatch continues from there.
 ///
 /// # Errors
 /// As [`comparison()`].
@@ -158,7 +158,7 @@ fn write(
     stage("raster")?;
     let drawn = &outcome.drawn[1];
     let (timings, mut notes) = (&watch.timings(), pair.notes());
-    // what is known of one state may be new of the other
+    // a note may be known from one state and new for the other
     let new = outcome.notes.iter().filter(|note| !notes.contains(note)).cloned().collect::<Vec<_>>();
     notes.extend(new);
     let notes = &notes;

@@ -1,4 +1,4 @@
-//! The conversion: a model file as it was read, written as glTF.
+//! The conversion: writes a model file, as it was read, as glTF.
 
 use super::{DeliverError, Sink, WrittenFiles};
 use crate::export::model as encode;
@@ -14,14 +14,14 @@ pub struct ConversionAnswer {
     pub written: WrittenFiles,
     /// The report in JSON.
     pub report: String,
-    /// A line on what the model contains.
+    /// A line on the model's contents.
     pub summary: String,
 }
 
-/// Writes a model into a file of that name. The summary is in the words of a face.
+/// Writes a model to a file of that name. The summary uses the words of a face.
 ///
 /// # Errors
-/// [`DeliverError`]; what cannot be written, before anything is made.
+/// [`DeliverError`]. A file that cannot be written is refused before anything is made.
 pub fn convert(
     placed: &PlacedModel,
     name: &Path,

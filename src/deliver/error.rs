@@ -11,13 +11,13 @@ use chrono::DateTime;
 /// Why a deliverable could not be made, in one line.
 #[derive(Debug, thiserror::Error)]
 pub enum DeliverError {
-    /// The study has no answer.
+    /// The study failed.
     Study(#[from] StudyError),
     /// The answer could not be written.
     Export(#[from] ExportError),
-    /// Lines cannot be drawn of such a study.
+    /// The lines of such a study cannot be drawn.
     Lines(#[from] LinesError),
-    /// There are more pictures than an animation has.
+    /// The study has more instants than an animation has frames.
     TooManyFrames {
         /// The number of instants.
         count: usize,
@@ -35,10 +35,10 @@ pub enum DeliverError {
     Night {
         /// The time.
         time: DateTime<Zone>,
-        /// How far below the horizon the sun is, degrees.
+        /// The sun's depth below the horizon, degrees.
         below_deg: f64,
     },
-    /// The shadow volumes make no solids.
+    /// The shadow volumes do not make solids.
     Solid(#[from] SolidError),
 }
 
@@ -51,8 +51,8 @@ impl Worded for DeliverError {
             DeliverError::Export(error) => error.message(),
             DeliverError::Lines(error) => error.message(),
             DeliverError::TooManyFrames { count, most } => message![
-                format!("the study has {count} instants, and an animation at most {most} frames");
-                "take a longer ", Field::Step, ", or fewer hours", by_clock()
+                format!("the study has {count} instants, but an animation has at most {most} frames");
+                "choose a longer ", Field::Step, ", or fewer hours", by_clock()
             ],
             DeliverError::TooManySkies { count, most } => message![
                 Field::Sky, format!(": there are {count} points, and each has a drawing of its own, at most {most} at once");
@@ -63,7 +63,7 @@ impl Worded for DeliverError {
                     "no sun at {}: it is {below_deg:.1}° below the horizon, and nothing casts a shadow",
                     time.format("%Y-%m-%d %H:%M")
                 );
-                "take a time of day", Piece::Where(Field::At, pieces![" for ", Field::At])
+                "choose a time of day", Piece::Where(Field::At, pieces![" for ", Field::At])
             ],
             DeliverError::Solid(error) => error.to_string().into(),
         }
@@ -71,7 +71,7 @@ impl Worded for DeliverError {
 }
 
 impl DeliverError {
-    /// Whether parts of the request do not fit each other or the site.
+    /// Whether parts of the request contradict each other or the site.
     pub fn is_wrong_use(&self) -> bool {
         match self {
             DeliverError::Study(error) => error.is_wrong_use(),
@@ -81,7 +81,7 @@ impl DeliverError {
         }
     }
 
-    /// Whether somebody stopped the work.
+    /// Whether the user stopped the work.
     pub fn is_interrupted(&self) -> bool {
         matches!(self, DeliverError::Study(StudyError::Interrupted))
     }

@@ -16,28 +16,28 @@ use std::path::PathBuf;
 pub struct InstantRequest {
     /// The view from which the shadows are seen.
     pub view: View,
-    /// The name of the drawing; without one there is no drawing.
+    /// The name of the drawing; `None` for no drawing.
     pub drawing: Option<PathBuf>,
-    /// The name of the mask; without one there is no mask.
+    /// The name of the mask; `None` for no mask.
     pub mask: Option<PathBuf>,
     /// What the drawing shows besides sun and shadow.
     pub show: Show,
     /// Whether statistics of counting shadow volumes are wanted.
     pub statistics: bool,
-    /// Has been running since before the site was read.
+    /// A stopwatch that has been running since before the site was read.
     pub watch: Stopwatch,
 }
 
 /// What a drawing of an instant shows besides sun and shadow, or instead of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Show {
-    /// The shadow volumes, over a camera's picture.
+    /// The shadow volumes, on a camera's picture.
     pub volumes: bool,
-    /// The silhouette, over a camera's picture.
+    /// The silhouette, on a camera's picture.
     pub silhouette: bool,
     /// Components in their own colours.
     pub components: bool,
-    /// How much work counting took, instead of sun and shadow.
+    /// The work of counting, instead of sun and shadow.
     pub diagram: Option<Diagram>,
 }
 
@@ -57,7 +57,7 @@ pub struct InstantAnswer {
 /// Draws the first instant of the site's study.
 ///
 /// # Errors
-/// [`DeliverError`]; what does not go together, and what cannot be written, before anything is drawn.
+/// [`DeliverError`]. Contradictory requests, and files that cannot be written, are refused before anything is drawn.
 pub fn instant(
     site: &Site,
     asked: &InstantRequest,
@@ -117,7 +117,7 @@ fn draw(
     Ok(figure::instant(&scene, &asked.view, mask, &shown)?)
 }
 
-/// For each component of a drawing's mesh, which contains only those that are seen, whether it casts.
+/// For each component of a drawing's mesh, which has only the visible ones, whether it casts.
 pub(crate) fn seen_casts(site: &Site) -> Vec<bool> {
     site.casts.iter().zip(&site.receives).filter(|(_, seen)| **seen).map(|(casts, _)| *casts).collect()
 }

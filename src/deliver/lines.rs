@@ -1,4 +1,4 @@
-//! Line drawings beside the profile's other files: iso-hour lines, and outlines of shadows.
+//! Line drawings among a profile's files: iso-hour lines, and outlines of shadows.
 
 use super::sink::NamedFile;
 use crate::export::ExportError;
@@ -9,7 +9,7 @@ use crate::sun::{Instant, SunTrack};
 use crate::view::SurfaceRows;
 use chrono::NaiveDate;
 
-/// A line drawing, which becomes a PNG and an SVG.
+/// A line drawing, written as a PNG and an SVG.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lines {
     /// A labelled line for each whole hour of shadow.
@@ -23,7 +23,7 @@ pub enum Lines {
 pub enum LinesError {
     /// All instants are at night.
     NoSun,
-    /// Outlines are labelled with times, which do not distinguish days.
+    /// The instants are on several days, but the outlines' labels are times alone.
     SeveralDays {
         /// The first of them.
         date: NaiveDate,
@@ -32,7 +32,7 @@ pub enum LinesError {
     TooMany {
         /// The number of instants with a sun.
         count: usize,
-        /// A step with which there are few enough, minutes.
+        /// A step with few enough outlines, minutes.
         step_min: i64,
     },
 }
@@ -44,16 +44,16 @@ impl Worded for LinesError {
         match self {
             LinesError::NoSun => message![
                 Field::Lines, ": there is no sun at any of the study's instants";
-                "take a window by day", by_clock()
+                "choose a window by day", by_clock()
             ],
             LinesError::SeveralDays { date } => message![
-                Field::Outlines, " is for one day, and these instants lie on several";
-                "take one without dates: ", (Field::Date, date.to_string()), by_clock()
+                Field::Outlines, " is for one day, but these instants are on several";
+                "choose one day: ", (Field::Date, date.to_string()), by_clock()
             ],
             LinesError::TooMany { count, step_min } => message![
                 Field::Outlines,
                 format!(": {count} instants with a sun are too many to tell apart, at most {MOST_OUTLINES} are drawn");
-                "take a longer ", Field::Step, format!(", as {step_min}min, or a shorter window"), by_clock()
+                "choose a longer ", Field::Step, format!(", as {step_min}min, or a shorter window"), by_clock()
             ],
         }
     }
@@ -65,7 +65,7 @@ pub(super) fn by_clock() -> Piece {
 }
 
 impl Lines {
-    /// Returns an error if a drawing of such a study would show nothing, or too much to be readable.
+    /// Checks that a drawing of such a study would show something, and not too much to be readable.
     ///
     /// # Errors
     /// [`LinesError`].
@@ -75,7 +75,7 @@ impl Lines {
         if self == Lines::Hours {
             return Ok(());
         }
-        // a single window is shorter than a day, so that no clock time comes twice
+        // a single window is shorter than a day, so no clock time occurs twice
         let date = first.time.date_naive();
         if track.each_day.is_some() && date != last.time.date_naive() {
             return Err(LinesError::SeveralDays { date });
@@ -97,7 +97,7 @@ impl Lines {
         }
     }
 
-    /// The drawings' files; `outlines` are those of all instants with a sun.
+    /// The drawings' files. `outlines` are those of all instants with a sun.
     pub(super) fn files<S: SurfaceRows>(
         self,
         scene: &FigureContext<S>,

@@ -2,8 +2,8 @@
 //! from a site is made in one place.
 //!
 //! Each deliverable is one function. It takes a checked [`Site`](crate::site::Site) and a small request, reports
-//! events, writes into a [`Sink`], and returns a typed answer that a face prints or shows. `disk` has what lies on the
-//! disk while a study runs.
+//! events, writes to a [`Sink`], and returns a typed answer that a face prints or shows. `disk` handles a study's files
+//! while it runs.
 
 pub mod animation;
 pub mod comparison;

@@ -1,4 +1,4 @@
-//! What all deliverables share: the context of a drawing, the context of a report, and the notes on both.
+//! What all deliverables share: the contexts of drawings and reports, and notes.
 
 use crate::choice::Receivers;
 use crate::export::figure;
@@ -9,14 +9,14 @@ use crate::profile::{Provenance, Statistics, Timings};
 use crate::site::Site;
 use crate::study::{Event, OnEvent, StudyError, tell};
 
-/// What was drawn of a site, and what drew it.
+/// A drawn view of a site.
 #[derive(Clone, Copy)]
 pub struct DrawnView<'a, S> {
     /// What was judged.
     pub receivers: Receivers,
     /// What each cell sees.
     pub surface: &'a S,
-    /// The mesh whose faces those are.
+    /// The mesh that its face indices refer to.
     pub mesh: &'a Mesh,
     /// What drew the answer.
     pub drawn: &'a Provenance,
@@ -47,7 +47,7 @@ pub(super) fn report_context<'a>(
     ReportContext { receivers, ground: site.ground, drawn, timings, statistics, notes: &site.notes, words: site.words }
 }
 
-/// Notes the letters in drawn texts that no font has.
+/// Notes characters in drawn texts that no font has.
 pub(super) fn note_letters<'a>(
     texts: impl IntoIterator<Item = &'a str>,
     on_event: &mut OnEvent<'_>,
@@ -56,8 +56,8 @@ pub(super) fn note_letters<'a>(
     match missing.into_iter().find(|(_, letters)| !letters.is_empty()) {
         Some((text, letters)) => note(
             Some(format!(
-                "no font has the letters {letters} of \"{text}\", and boxes are drawn for them; install one that has, or \
-                 write other letters"
+                "no font has the letters {letters} of \"{text}\", so boxes are drawn instead; install a font that has them, or \
+                 use other letters"
             )),
             on_event,
         ),
@@ -65,7 +65,7 @@ pub(super) fn note_letters<'a>(
     }
 }
 
-/// Passes on a note if there is one.
+/// Reports a note if there is one.
 pub(super) fn note(note: Option<impl Into<Message>>, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     note.map_or(Ok(()), |note| tell(on_event, Event::Note(note.into())))
 }

@@ -1,4 +1,4 @@
-//! The hours of sun on the model itself, as a drawing, a model, a table and a report.
+//! The hours of sun on the models' surfaces, as a drawing, a model, a table and a report.
 
 use super::parts::{DrawnView, figure_context, note, note_letters, report_context};
 use super::shelf::{self, Beside, PatchStore};
@@ -29,7 +29,7 @@ pub struct PatchesRequest {
     pub table: bool,
     /// `profile.json`
     pub report: bool,
-    /// Has been running since before the site was read.
+    /// A stopwatch that has been running since before the site was read.
     pub watch: Stopwatch,
 }
 
@@ -38,7 +38,7 @@ pub struct PatchesRequest {
 pub struct PatchesAnswer {
     /// The files that were written.
     pub written: WrittenFiles,
-    /// The content of `profile.json`, whether it was written or not.
+    /// The contents of `profile.json`, whether it was written or not.
     pub report: String,
     /// What drew the answer.
     pub drawn: Provenance,
@@ -46,10 +46,10 @@ pub struct PatchesAnswer {
     pub summary: String,
 }
 
-/// Finds the hours of sun on the patches of a site, and writes the requested files.
+/// Computes the hours of sun on the patches of a site, and writes the requested files.
 ///
 /// # Errors
-/// [`DeliverError`]; what does not go together, and what cannot be written, before anything is drawn.
+/// [`DeliverError`]. Contradictory requests, and files that cannot be written, are refused before anything is drawn.
 pub fn patches(
     site: &Site,
     asked: &PatchesRequest,
@@ -71,9 +71,9 @@ pub fn patches(
     Ok(answer)
 }
 
-/// Finds the hours of sun on the site's patches that are to be shown. If a study is stopped, it is kept in `shelf`
-/// (which keeps the newest ones), and continues when the same request is made again. Nothing is kept while another
-/// study works there.
+/// Computes the hours of sun on the site's patches to be shown. If a study is stopped, it is kept in `shelf` (which
+/// keeps the newest ones), and continues when the same request is made again. Nothing is kept while another study works
+/// there.
 ///
 /// # Errors
 /// As [`patches()`].
@@ -84,13 +84,13 @@ pub fn find_patches(
 ) -> Result<PatchOutcome, DeliverError> {
     shelf::find(shelf, on_event, |folder, on_event| {
         let (outcome, store) = find(site, folder, Beside::Shelf, on_event)?;
-        // what cannot be removed now is removed once newer studies are kept
+        // what cannot be removed now will be removed when newer studies are kept
         let _ = store.finish();
         Ok(outcome)
     })
 }
 
-/// Finds the hours, and continues what the study left in the folder when it was stopped.
+/// Computes the hours, and continues the folder's stopped study if it is the same.
 fn find<'a>(
     site: &Site,
     folder: Option<&'a Path>,
@@ -105,8 +105,7 @@ fn find<'a>(
     Ok((outcome, store))
 }
 
-/// Writes the requested files of hours that were found on the patches of a site. The request's stopwatch runs on from
-/// [`PatchOutcome::timings`].
+/// Writes the requested files of computed hours. The request's stopwatch continues from [`PatchOutcome::timings`].
 ///
 /// # Errors
 /// As [`patches()`].
@@ -123,7 +122,7 @@ pub fn write_patches(
     write(site, outcome, asked, &open, &mut |stage| tell(on_event, Event::Stage(stage)))
 }
 
-/// The hours of a site's patches, in the form that drawings and tables take.
+/// The hours of a site's patches in the form that drawings and tables use.
 pub fn answer<'a>(site: &'a Site, outcome: &'a PatchOutcome) -> PatchContext<'a> {
     let Site { place, track, mesh, receives, .. } = site;
     PatchContext { place, track, mesh, receives, patches: &outcome.patches, hours: &outcome.hours }

@@ -17,11 +17,11 @@ use std::path::PathBuf;
 /// What is requested besides the answer itself.
 #[derive(Clone, Debug, Default)]
 pub struct ProbeRequest {
-    /// The name of the drawing: time of day across, days down. Without a name there is no drawing.
+    /// The name of the drawing: time of day across, days down. `None` for no drawing.
     pub drawing: Option<PathBuf>,
-    /// The name of the table, with one line per interval. Without a name there is no table.
+    /// The name of the table with one line per interval. `None` for no table.
     pub table: Option<PathBuf>,
-    /// The name of the table of totals: a day, a month and a year. Without a name there is none.
+    /// The name of the table of totals by day, month and year. `None` for no table.
     pub totals: Option<PathBuf>,
     /// The name of the drawing of a point's sky, a PNG or by its ending an SVG. Of several points each has its own, with
     /// the point's number in its name. Without a name there is none.
@@ -35,7 +35,7 @@ pub struct ProbeRequest {
 pub struct ProbeAnswer {
     /// When each point lies in the sun.
     pub sunlight: Sunlight,
-    /// What was noted of the models and of the search.
+    /// Notes on the models and on the search.
     pub notes: Vec<Message>,
     /// The files that were written.
     pub written: WrittenFiles,
@@ -44,7 +44,7 @@ pub struct ProbeAnswer {
 /// Finds when points lie in the sun.
 ///
 /// # Errors
-/// [`DeliverError`]; what cannot be written, before anything is searched.
+/// [`DeliverError`]. Files that cannot be written are refused before anything is searched.
 pub fn probe(
     probing: &ProbeSite,
     asked: &ProbeRequest,

@@ -1,4 +1,4 @@
-//! What is kept of stopped studies: the note about one, the shelf of a window, and the store of a study on patches.
+//! What is kept of stopped studies: notes about them, the shelf of a window, and the state of a study on patches.
 
 use super::disk::unfinished::{self, Checks, StoredStudy};
 use super::parts::note;
@@ -9,25 +9,25 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// How much work may be lost if a machine fails.
+/// The most work that is lost if a machine fails.
 pub(super) const KEEP_EVERY: Duration = Duration::from_secs(60);
 
 /// The number of stopped studies that are kept on a shelf.
 const MOST_KEPT: usize = 4;
 
-/// What of the stopped studies in a folder the user hears.
+/// Which stopped studies in a folder the user is told about.
 #[derive(Clone, Copy)]
 pub(super) enum Beside<'a> {
     /// All but these, which belong to the same request.
     Studies(&'a [u64]),
-    /// None, since one that belongs to the same request is not known yet.
+    /// None, since another study of the same request is not known yet.
     Unknown,
-    /// None: nobody looks at what lies on a shelf.
+    /// None, since nobody looks at a shelf.
     Shelf,
 }
 
 impl Beside<'_> {
-    /// Removes what no study can continue with, and notes what others keep in the folder beside this one.
+    /// Removes files that no study can continue from, and notes other stopped studies in the folder.
     pub(super) fn tidy(self, folder: &Path, study: u64, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
         match self {
             Beside::Studies(others) => note(unfinished::tidy(folder, &[others, &[study]].concat()), on_event),
@@ -40,32 +40,32 @@ impl Beside<'_> {
     }
 }
 
-/// Notes where a stopped study will continue, for whoever stopped it.
+/// Notes where a stopped study will continue.
 pub(super) fn note_kept(kept: Option<PathBuf>, on_event: &mut OnEvent<'_>) {
     if let Some(path) = kept {
-        let note = format!("{} keeps what is done; the same study goes on from there", path.display());
+        let note = format!("{} keeps what is done; the same study continues from there", path.display());
         let _ = on_event(Event::Note(note.into()));
     }
 }
 
-/// Notes what is kept when the work was ended while files were made, if there is a folder.
+/// Notes what is kept of work that was ended while files were made, if there is a folder.
 pub(super) fn note_end(kept: Option<Option<PathBuf>>, on_event: &mut OnEvent<'_>) {
     if let Some(None) = kept {
         let note = "what is done took little time and is not kept; the same study starts over";
-        // who ended the work has said all there is to say
+        // whoever ended the work gets no further events
         let _ = on_event(Event::Note(note.to_owned().into()));
     }
     note_kept(kept.flatten(), on_event);
 }
 
-/// Notes that a study cannot continue from what was left.
+/// Notes that a study cannot continue because its files were changed.
 pub(super) fn note_refused(path: &Path, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
-    let what = "is not what the study left there when it was stopped: it starts over";
+    let what = "was changed since the study was stopped: the study starts over";
     note(Some(format!("{} {what}", path.display())), on_event)
 }
 
-/// Finds what is to be shown. A study that is stopped is kept on the shelf, among the newest studies, unless another
-/// study works there. If it cannot be kept, it is found all the same.
+/// Computes something to be shown. If the study is stopped, it is kept on the shelf among the newest studies, unless
+/// another study works there. If it cannot be kept, it is computed nevertheless.
 pub(super) fn find<'a, T>(
     shelf: Option<Folder<'a>>,
     on_event: &mut OnEvent<'_>,
@@ -81,7 +81,7 @@ pub(super) fn find<'a, T>(
     let folder = open.as_ref().and(shelf).map(|folder| folder.path);
     let mut found = work(folder, on_event);
     if let (Err(DeliverError::Export(error)), Some(_)) = (&found, folder) {
-        // the shelf is for the case that the work is stopped; that it is full must not stop the work
+        // the shelf is a convenience: a full one must not stop the work
         note(Some(format!("{error}; the work is done again, and what is done is not kept")), on_event)?;
         tell(on_event, Event::StartsOver)?;
         found = work(None, on_event);
@@ -92,14 +92,14 @@ pub(super) fn find<'a, T>(
     found
 }
 
-/// What a study on patches keeps in a folder while it runs.
+/// The state that a study on patches keeps in a folder while it runs.
 pub(super) struct PatchStore<'a> {
     folder: Option<&'a Path>,
     beside: Beside<'a>,
     /// The study's fingerprint, once the study is prepared.
     study: Option<u64>,
     is_kept: bool,
-    /// The fault, if something could not be written.
+    /// The first error of writing.
     fault: Option<DeliverError>,
 }
 
@@ -108,12 +108,12 @@ impl<'a> PatchStore<'a> {
         PatchStore { folder, beside, study: None, is_kept: false, fault: None }
     }
 
-    /// How often the state is kept; never without a folder.
+    /// How often the state is kept; `None` without a folder.
     pub(super) fn keep_every(&self) -> Option<Duration> {
         self.folder.map(|_| KEEP_EVERY)
     }
 
-    /// Keeps what an event brings, and passes it on.
+    /// Stores the data of an event, and passes the event on.
     pub(super) fn hear(&mut self, event: Event<'_>, on_event: &mut OnEvent<'_>) -> ControlFlow<()> {
         let done = match (&event, self.folder) {
             (Event::Prepared { number, begun }, Some(folder)) => {
@@ -132,7 +132,7 @@ impl<'a> PatchStore<'a> {
         on_event(event)
     }
 
-    /// What the study left when it was stopped.
+    /// The state of the stopped study.
     fn begun(
         &mut self,
         folder: &Path,
@@ -144,7 +144,7 @@ impl<'a> PatchStore<'a> {
                 self.study = Some(number);
                 self.beside.tidy(folder, number, on_event)?;
             }
-            // on another device it is another study, and what is kept is that of the first
+            // on another device it is a different study, so the first one's state does not fit
             Some(first) if first != number => return Ok(None),
             Some(_) => {}
         }
@@ -167,7 +167,7 @@ impl<'a> PatchStore<'a> {
         self.folder.map(kept)
     }
 
-    /// The fault that ended the work, if something could not be written.
+    /// The error that ended the work, if something could not be written.
     pub(super) fn take_fault(&mut self) -> Option<DeliverError> {
         self.fault.take()
     }

@@ -5,7 +5,7 @@ use crate::export::ExportError;
 use crate::export::file::{self, TemporaryFile};
 use std::path::{Path, PathBuf};
 
-/// A file's name and its content.
+/// A file's name and its contents.
 pub type NamedFile = (PathBuf, Vec<u8>);
 
 /// The destination of files.
@@ -15,7 +15,7 @@ pub enum Sink<'a> {
     Folder(Folder<'a>),
     /// A path for each file, without a lock.
     Paths {
-        /// The files from which the site is read; none of them is overwritten.
+        /// The files that the site was read from; none of them is overwritten.
         inputs: &'a [PathBuf],
     },
     /// Memory: the files are returned with the answer.
@@ -27,9 +27,9 @@ pub enum Sink<'a> {
 pub struct Folder<'a> {
     /// Its path; it is created if it is missing.
     pub path: &'a Path,
-    /// Who works there, which others who want to work there can read: a command, or a window.
+    /// Who works there: a command or a window. Others who want to work there can read this.
     pub who: &'a str,
-    /// The files from which the site is read; none of them is overwritten.
+    /// The files that the site was read from; none of them is overwritten.
     pub inputs: &'a [PathBuf],
 }
 
@@ -42,7 +42,7 @@ pub struct WrittenFiles {
     pub files: Vec<NamedFile>,
 }
 
-/// A second folder, and the files that are written into it while the work runs.
+/// A second folder, and the names of the files that are written to it while the work runs.
 pub(super) struct SecondFolder<'a> {
     pub(super) folder: &'a Path,
     pub(super) files: Vec<PathBuf>,
@@ -57,11 +57,11 @@ impl<'a> Sink<'a> {
         }
     }
 
-    /// Makes sure that files of these names can be written, and that none of them is an input; locks the folders. It is
-    /// called before long work begins.
+    /// Checks that files of these names can be written and that none of them is an input, and locks the folders. Called
+    /// before long work begins.
     ///
     /// # Errors
-    /// [`ExportError`]: what the file system refuses; where the folder is another study's, or a file an input.
+    /// [`ExportError`] if the file system fails, the folder is in use, or a file is an input.
     pub(super) fn open(self, names: &[PathBuf], also: Option<SecondFolder<'_>>) -> Result<OpenSink<'a>, ExportError> {
         let workplace = match self {
             Sink::Memory => None,
@@ -84,7 +84,7 @@ impl<'a> Sink<'a> {
     }
 }
 
-/// A sink that is ready to take files.
+/// A sink that is ready for files.
 pub(super) struct OpenSink<'a> {
     sink: Sink<'a>,
     workplace: Option<Workplace>,
@@ -111,7 +111,7 @@ impl OpenSink<'_> {
         }
     }
 
-    /// Writes a file under a temporary name.
+    /// Writes a file to a temporary name.
     pub(super) fn ready(&self, (name, bytes): NamedFile) -> Result<WholeFile, ExportError> {
         match self.path(&name) {
             Some(path) => Ok(WholeFile::Disk(TemporaryFile::of(&path, &bytes)?)),
@@ -144,7 +144,7 @@ impl OpenSink<'_> {
         self.put(ready)
     }
 
-    /// Returns an error if the folder is no longer the one that was locked.
+    /// Checks that the folder is still the one that was locked.
     pub(super) fn check(&self) -> Result<(), ExportError> {
         self.workplace.as_ref().map_or(Ok(()), Workplace::check)
     }

@@ -1,4 +1,4 @@
-//! The verification: every technique against ray casting on a site, as a table and in JSON.
+//! The verification: compares every technique with ray casting on a site, as a table and in JSON.
 
 use super::DeliverError;
 use crate::export::verify as encode;
@@ -12,14 +12,15 @@ pub struct VerificationAnswer {
     pub table: String,
     /// The report in JSON.
     pub report: String,
-    /// The techniques that do not keep their promise, if there are any.
+    /// The techniques that break their promise, if there are any.
     pub failure: Option<String>,
 }
 
 /// Compares every technique with ray casting, at the site's instants.
 ///
 /// # Errors
-/// [`DeliverError`]; where there is no graphics adapter, or no sun, before anything is drawn.
+/// [`DeliverError`]. A machine without a graphics adapter, or a study without a sun, is refused before anything is
+/// drawn.
 pub fn verification(site: &Site, on_event: &mut OnEvent<'_>) -> Result<VerificationAnswer, DeliverError> {
     let mut notes = site.notes.clone();
     let found = study::verify::verify(site, &mut |event| {

@@ -10,7 +10,7 @@ use crate::sun::Instant;
 use crate::volume::solid::{Solids, solids};
 use std::path::Path;
 
-/// The length from which volumes are noted, metres.
+/// The length of volumes that gets a note, metres.
 const LONG_M: f64 = 10_000.0;
 
 /// The result of making volumes.
@@ -24,10 +24,10 @@ pub struct VolumesAnswer {
     pub summary: String,
 }
 
-/// Writes the shadow volumes at the first instant of the site's study into a model of that name.
+/// Writes the shadow volumes at the first instant of the site's study to a model of that name.
 ///
 /// # Errors
-/// [`DeliverError`]; at night, and what cannot be written, before anything is made.
+/// [`DeliverError`]. Night, and a file that cannot be written, are refused before anything is made.
 pub fn volumes(
     site: &Site,
     name: &Path,
@@ -67,7 +67,7 @@ pub fn volumes(
     Ok(VolumesAnswer { written, report: encode::json(&volumes, name)?, summary: encode::summary(&volumes) })
 }
 
-/// That volumes end below the terrain or above it, which their file says as well.
+/// A note that the volumes end at a plane, above or below the terrain.
 fn note_plane(level_m: f64) -> Message {
     message![
         format!("the volumes end at a plane at {}, and not at the terrain", metres(level_m));
@@ -75,7 +75,7 @@ fn note_plane(level_m: f64) -> Message {
     ]
 }
 
-/// Notes what is left out, and what is very long.
+/// Notes what is left out, and very long volumes.
 fn note_extent(found: &Solids, instant: &Instant, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     let left_out = match found.left_out {
         0 => None,
@@ -91,7 +91,7 @@ fn note_extent(found: &Solids, instant: &Instant, on_event: &mut OnEvent<'_>) ->
     let longest = found.solids.iter().fold(0.0, |longest: f64, solid| longest.max(solid.length_m));
     let long = (longest > LONG_M).then(|| {
         let altitude = instant.altitude_deg();
-        format!("the sun is {altitude:.2}° above the horizon: volumes reach {:.0} km far", longest / 1000.0)
+        format!("the sun is {altitude:.2}° above the horizon: volumes are up to {:.0} km long", longest / 1000.0)
     });
     note(long, on_event)
 }

@@ -1,7 +1,7 @@
-//! Runs the system's event loop, with one window after another in it.
+//! Runs the system's event loop for several windows, one after another.
 //!
 //! egui's renderer panics when it paints on a lost device, or when the device's memory is full. A panic that leaves
-//! winit's loop makes the loop useless, and a process can have only one. So the panic is caught here, around each
+//! winit's loop makes the loop unusable, and a process can have only one. So the panic is caught here, around each
 //! event: the window ends, and the loop can show the next one.
 
 use eframe::{EframeWinitApplication, NativeOptions, UserEvent};
@@ -20,7 +20,7 @@ pub(in crate::desktop) type Panic = Box<dyn Any + Send>;
 /// The event loop of this process, with these options.
 ///
 /// # Errors
-/// No display, as a rule.
+/// Usually: there is no display.
 pub(in crate::desktop) fn new(options: &mut NativeOptions) -> Result<EventLoop<UserEvent>, EventLoopError> {
     let mut builder = EventLoop::with_user_event();
     if let Some(hook) = options.event_loop_builder.take() {
@@ -32,7 +32,7 @@ pub(in crate::desktop) fn new(options: &mut NativeOptions) -> Result<EventLoop<U
 /// Shows a window until it is closed. Returns the panic that ended it, if one did.
 ///
 /// # Errors
-/// What the system says.
+/// Errors of the system.
 pub(in crate::desktop) fn show(
     event_loop: &mut EventLoop<UserEvent>,
     window: EframeWinitApplication<'_>,
@@ -40,12 +40,12 @@ pub(in crate::desktop) fn show(
     let mut guarded = PanicGuard { window, panic: None };
     event_loop.run_app_on_demand(&mut guarded)?;
     let PanicGuard { window, panic } = guarded;
-    // what is left of it lies on a device that may be lost
+    // its resources may be on a lost device
     let dropped = catch_unwind(AssertUnwindSafe(|| drop(window)));
     Ok(panic.or(dropped.err()))
 }
 
-/// A window whose panics end it, and nothing else.
+/// A window whose panics end only that window.
 struct PanicGuard<'a> {
     window: EframeWinitApplication<'a>,
     panic: Option<Panic>,
@@ -97,10 +97,10 @@ impl ApplicationHandler<UserEvent> for PanicGuard<'_> {
         self.hand_on(event_loop, |window| window.memory_warning(event_loop));
     }
 
-    /// Is also called after a panic: the system's window is closed, and eframe keeps what it keeps.
+    /// Also called after a panic: the system's window is closed, and eframe stores its state.
     fn exiting(&mut self, event_loop: &ActiveEventLoop) {
         let ended = catch_unwind(AssertUnwindSafe(|| self.window.exiting(event_loop)));
-        // the first panic is the one to tell of
+        // the first panic is reported
         self.panic = self.panic.take().or(ended.err());
     }
 }

@@ -1,4 +1,4 @@
-//! What tests, benches and tools read from the window, and what they do to its devices.
+//! Hooks for tests, benches and tools, to read the window's state and to lose its devices.
 
 use super::app::state::App;
 use super::app::study;
@@ -24,7 +24,7 @@ impl App {
         self.open.as_ref().is_some_and(|open| open.adding.is_some())
     }
 
-    /// The message of what went wrong, and the notice of what else the user should know.
+    /// The error message, and the notice.
     pub fn fault_and_notice(&self) -> [Option<&str>; 2] {
         let of_picture = self.open.as_ref().and_then(|open| open.viewer.fault.as_deref());
         [self.fault.as_deref().or(of_picture), self.notice.as_deref()]
@@ -36,7 +36,7 @@ impl App {
         Some((wish.view, wish.to_sun))
     }
 
-    /// What the window wanted to see at the last frame: the view at its full size, and the unit vector to the sun.
+    /// What the window requested at the last frame: the view at its full size, and the unit vector to the sun.
     pub fn wanted_view(&self) -> Option<(View, DVec3)> {
         let wish = self.open.as_ref()?.viewer.best()?;
         Some((wish.view, wish.to_sun))
@@ -47,7 +47,7 @@ impl App {
         Some(&self.open.as_ref()?.viewer.shown()?.provenance)
     }
 
-    /// The site with the window's settings, as a site file would have it.
+    /// The site file with the window's settings.
     pub fn site_file(&self) -> &SiteFile {
         &self.settings.site
     }

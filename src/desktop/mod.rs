@@ -1,13 +1,13 @@
-//! The window: a site, its sun and its shadows, drawn as fast as the hand moves. The library computes everything that
-//! the window shows.
+//! The window: a site, its sun and its shadows, drawn interactively. The library computes everything that the window
+//! shows.
 //!
 //! One thread draws the window and never waits. A second one (`stage`) takes the newest wish and draws the picture on a
-//! device of its own; others load sites and add up hours (`work`).
+//! device of its own; others load sites and run studies (`work`).
 //!
-//! The folders are layers, from the lowest: `state`, what is open and what a person sets; `results`, the results of
-//! studies; `work`, the threads beside the window; `stage`, the thread that draws the picture; `parts`, the parts of
-//! which the window is drawn; `app`, the window that owns all of these. A layer uses only those before it, and within a
-//! layer files use each other in one direction.
+//! The folders are layers, from the lowest: `state`, what is open and the settings; `results`, the results of studies;
+//! `work`, the worker threads; `stage`, the thread that draws the picture; `parts`, the parts of the window; `app`, the
+//! window itself, which owns all of these. A layer uses only those before it, and within a layer files use each other
+//! in one direction.
 
 mod app;
 mod event_loop;

@@ -1,9 +1,9 @@
-//! The window on the screen, and its reopening when its graphics device is lost (the driver was reset, or the adapter
-//! is gone). It is opened again on a new device, with everything that was open and all running work. If devices are
-//! lost repeatedly, it is opened on the processor.
+//! Shows the window, and reopens it when its graphics device is lost (the driver was reset, or the adapter is gone): on
+//! a new device, with everything that was open and all running work. If devices are lost repeatedly, it is opened on
+//! the processor.
 //!
-//! eframe cannot change the device of a window. So the window is closed and another one opened, with the same [`App`],
-//! and with what egui remembers.
+//! eframe cannot change the device of a window. So the window is closed and another one opened, with the same [`App`]
+//! and with egui's memory.
 
 use crate::desktop::app::device::devices;
 use crate::desktop::app::state::App;
@@ -21,8 +21,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 use wgpu::{Adapter, CurrentSurfaceTexture, DeviceType, PollType};
 
-/// A window whose device is lost more often than this within [`MOMENT`] is opened on the processor; if that is lost as
-/// often, the program gives up.
+/// If more devices than this are lost within [`MOMENT`], the window is opened on the processor; if as many are lost
+/// there, the program gives up.
 const MOST_LOSSES: usize = 3;
 const MOMENT: Duration = Duration::from_secs(60);
 
@@ -34,8 +34,7 @@ pub fn open(path: Option<&Path>) -> anyhow::Result<()> {
     open_reading(path, &ModelReader::of_this_program(), &|_| (), &mut |_, _| ())
 }
 
-/// The same with further options for eframe and a function that sees each frame, for tests. Models are read in this
-/// process.
+/// The same with further options for eframe and a callback for each frame, for tests. Models are read in this process.
 ///
 /// # Errors
 /// As [`open`].
@@ -102,7 +101,7 @@ struct Reopening {
 }
 
 impl Reopening {
-    /// Notes that a device was lost.
+    /// Records that a device was lost.
     fn note_loss(&mut self, why: String) -> anyhow::Result<()> {
         self.losses.retain(|at| at.elapsed() < MOMENT);
         self.losses.push(Instant::now());
@@ -117,7 +116,7 @@ impl Reopening {
         Ok(())
     }
 
-    /// Notes that no window could be opened.
+    /// Records that no window could be opened.
     fn note_unopened(&mut self, panic: Option<Panic>) -> anyhow::Result<()> {
         if !self.software {
             self.note = Some("No graphics adapter opens: the window is drawn on the processor".to_owned());
@@ -133,7 +132,7 @@ impl Reopening {
 }
 
 fn given_up(why: &str) -> anyhow::Error {
-    anyhow!("{why} time and again, and no window can be shown; look after its driver")
+    anyhow!("{why} time and again, and no window can be shown; check its driver")
 }
 
 fn unopened(error: impl std::fmt::Display) -> anyhow::Error {
@@ -157,15 +156,14 @@ fn options(software: bool) -> NativeOptions {
             .with_title("Gnomon")
             .with_app_id("gnomon")
             .with_inner_size([1280.0, 760.0])
-            // all is seen down to here: twice as large on a screen of 1280 × 720
+            // the smallest size at which everything is visible: that of a screen of 1280 × 720 at double scale
             .with_min_inner_size([640.0, 360.0]),
-        // panels are flat and the picture has its colours: there is nothing between two of them that a dither could
-        // hide
+        // panels are flat and the picture has exact colours, so there is no banding to dither
         dithering: false,
         wgpu_options: WgpuConfiguration {
             wgpu_setup: WgpuSetup::CreateNew(setup),
             on_surface_status: Arc::new(|status| match status {
-                // what could not be configured is tried again, or no frame is shown any more
+                // a surface that could not be configured is retried, since otherwise no more frames are shown
                 CurrentSurfaceTexture::Outdated | CurrentSurfaceTexture::Validation => SurfaceErrorAction::Reconfigure,
                 CurrentSurfaceTexture::Lost => SurfaceErrorAction::RecreateSurface,
                 _ => SurfaceErrorAction::SkipFrame,
@@ -197,7 +195,7 @@ struct AppWindow<'a> {
 
 impl eframe::App for AppWindow<'_> {
     fn logic(&mut self, context: &egui::Context, frame: &mut Frame) {
-        // a window that is opened again asks nothing when it closes
+        // a window that will be reopened asks no questions when it closes
         if !self.app.leaves_device(context) {
             self.app.logic(context, frame);
         }
@@ -208,7 +206,7 @@ impl eframe::App for AppWindow<'_> {
             self.app.ui(ui, frame);
             (self.on_frame)(self.app, ui.ctx());
         }
-        // egui's renderer panics where it is to draw on a device that is lost
+        // egui's renderer panics on a lost device
         if self.app.leaves_device(ui.ctx()) {
             ui.ctx().graphics_mut(|layers| *layers = GraphicLayers::default());
         }
@@ -219,8 +217,8 @@ impl eframe::App for AppWindow<'_> {
     }
 }
 
-/// Moves what egui remembers to another context. Work that still requests frames from the last context requests them
-/// from the new one.
+/// Moves egui's memory to another context. Work that still requests frames from the last context requests them from the
+/// new one.
 fn take_over(last: &egui::Context, new: &egui::Context) {
     let memory = last.memory(Clone::clone);
     new.memory_mut(|its| *its = memory);
@@ -230,7 +228,7 @@ fn take_over(last: &egui::Context, new: &egui::Context) {
 }
 
 impl App {
-    /// Continues in another window, on its device, with what egui knew in the last one.
+    /// Continues in another window, on its device, with egui's memory of the last one.
     fn move_to(&mut self, cc: &CreationContext<'_>, last: Option<&egui::Context>) -> Result<(), GpuError> {
         if let Some(last) = last {
             take_over(last, &cc.egui_ctx);
@@ -249,7 +247,7 @@ impl App {
     /// Whether the window's device is lost: then nothing can be shown, and the window closes. Other faults of the
     /// device are reported once.
     fn leaves_device(&mut self, context: &egui::Context) -> bool {
-        // what became of it is told when it is asked
+        // the poll reports what happened
         let _ = self.gpu.device.poll(PollType::Poll);
         let Err(error) = self.gpu.check() else { return false };
         let is_lost = self.gpu.is_lost();
@@ -261,8 +259,8 @@ impl App {
         is_lost
     }
 
-    /// Why the window's device is lost, if it is, which the next window says. After a panic it is any fault that the
-    /// device has reported, since egui's renderer cannot cope with faults.
+    /// Why the window's device is lost, if it is; the next window reports it. After a panic, any fault of the device
+    /// counts, since egui's renderer cannot handle faults.
     fn lost(&mut self, has_panicked: bool) -> Option<String> {
         let _ = self.gpu.device.poll(PollType::wait_indefinitely());
         let is_lost = self.gpu.is_lost() || has_panicked;

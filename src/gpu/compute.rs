@@ -24,17 +24,17 @@ impl Gpu {
         self.limits.max_storage_buffer_binding_size.min(self.limits.max_buffer_size)
     }
 
-    /// A buffer for shaders; or, before any memory is taken, the reason why it would be larger than `most` bytes.
+    /// A buffer for shaders, or an error before allocating one that is larger than `most` bytes.
     pub(crate) fn storage(&self, label: &str, size: u64, most: u64, usage: BufferUsages) -> Result<Buffer, GpuError> {
         if size > most {
             return Err(self.failed(format!("{label} takes {size} bytes, more than the {most} that its shaders reach")));
         }
-        // a binding is never empty
+        // a binding must not be empty
         self.buffer(label, size.max(16), usage | BufferUsages::STORAGE)
     }
 
-    /// Asks for an invocation for each of `count` things, in a square of workgroups: a row of all of them may be longer
-    /// than the adapter allows.
+    /// Dispatches an invocation for each of `count` items, in a square of workgroups: a single row may be longer than
+    /// the adapter allows.
     pub(crate) fn dispatch(&self, pass: &mut ComputePass<'_>, count: u32) {
         let groups = count.div_ceil(GROUP);
         if groups > 0 {

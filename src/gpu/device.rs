@@ -1,4 +1,4 @@
-//! One adapter, opened with all features and limits that it has and the program uses.
+//! An adapter, opened with all features and limits that it has and the program uses.
 
 #[cfg(feature = "test-hooks")]
 use super::timers::Timers;
@@ -20,7 +20,7 @@ pub struct Gpu {
     name: String,
     software: bool,
     fault: Arc<Mutex<Option<DeviceFault>>>,
-    /// Where passes are timed.
+    /// The timers of passes.
     #[cfg(feature = "test-hooks")]
     pub(super) timers: std::sync::OnceLock<Timers>,
 }
@@ -101,11 +101,11 @@ fn plain(reason: &str) -> String {
     reason.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// What a device has reported beside the calls that caused it.
+/// A fault that a device reported asynchronously.
 #[derive(Clone)]
 struct DeviceFault {
     reason: String,
-    /// The device itself is gone.
+    /// Whether the device itself is lost.
     lost: bool,
 }
 
@@ -115,9 +115,10 @@ impl DeviceFault {
     }
 }
 
-/// What drawing needs beyond the least that WebGPU promises: a float depth beside the stencil.
+/// The required features: a float depth with a stencil.
 const NEEDED: Features = Features::DEPTH32FLOAT_STENCIL8;
-/// What some techniques need, and some adapters (all of GL) lack; and the clock for timers.
+/// Optional features: some techniques need float blending, which some adapters lack (all of GL); timers need
+/// timestamps.
 const WANTED: Features = Features::FLOAT32_BLENDABLE.union(Features::TIMESTAMP_QUERY);
 
 impl Gpu {
@@ -127,7 +128,7 @@ impl Gpu {
     /// Opens the fastest adapter of the system. The usual environment variables of wgpu choose another one.
     ///
     /// # Errors
-    /// [`GpuError::NoAdapter`]; as [`Gpu::on`].
+    /// [`GpuError::NoAdapter`]; otherwise as [`Gpu::on`].
     pub fn open() -> Result<Gpu, GpuError> {
         Self::open_as(false)
     }
@@ -155,7 +156,7 @@ impl Gpu {
     /// Opens another device on an adapter.
     ///
     /// # Errors
-    /// [`GpuError::Unusable`] where the adapter lacks what is needed, or has no device any more.
+    /// [`GpuError::Unusable`] if the adapter lacks a required feature, or has lost its device.
     pub fn on(adapter: &Adapter) -> Result<Gpu, GpuError> {
         check(adapter)?;
         let (device, queue) = pollster::block_on(adapter.request_device(&Self::description(adapter)))
@@ -163,7 +164,7 @@ impl Gpu {
         Ok(Self::opened(adapter, device, queue))
     }
 
-    /// How a device is to be asked of an adapter, so that all techniques draw on it: for whoever opens it elsewhere.
+    /// The descriptor of a device on which all techniques can draw, for callers that open it themselves.
     pub(crate) fn description(adapter: &Adapter) -> DeviceDescriptor<'static> {
         DeviceDescriptor {
             label: Some("gnomon"),
@@ -173,7 +174,7 @@ impl Gpu {
         }
     }
 
-    /// Uses a device that is already open, and listens to what it reports from now on.
+    /// Uses a device that is already open, and records the faults that it reports from now on.
     #[doc(hidden)]
     pub fn opened(adapter: &Adapter, device: wgpu::Device, queue: wgpu::Queue) -> Gpu {
         let fault = Arc::new(Mutex::new(None::<DeviceFault>));
@@ -181,7 +182,7 @@ impl Gpu {
         let hear = move |reason: String, lost: bool| {
             if let Ok(mut fault) = heard.lock() {
                 match &mut *fault {
-                    // what follows from the loss may be told before it
+                    // consequences of a loss may be reported before it
                     Some(first) if lost && !first.lost => *first = DeviceFault { reason, lost },
                     Some(_) => {}
                     none => *none = Some(DeviceFault { reason, lost }),
@@ -218,7 +219,7 @@ impl Gpu {
         self.software
     }
 
-    /// Says so where the adapter cannot blend 32-bit floats, by which `what` is done.
+    /// Checks that the adapter can blend 32-bit floats, which `what` needs.
     ///
     /// # Errors
     /// [`GpuError::Failed`]
@@ -229,8 +230,8 @@ impl Gpu {
         }
     }
 
-    /// Returns an error if something went wrong since the device was opened. wgpu reports faults (memory above all)
-    /// separately from the calls that cause them, so whoever passes on a result calls this first.
+    /// Returns an error if something went wrong since the device was opened. wgpu reports faults (mostly of memory)
+    /// separately from the calls that cause them, so callers must check before they return a result.
     ///
     /// # Errors
     /// [`GpuError::Lost`]
@@ -244,7 +245,7 @@ impl Gpu {
         if fault().is_none() {
             return Ok(());
         }
-        // a loss is told once nothing is under way any more; whatever that says is heard, too
+        // a loss is reported once all work has ended, and the poll may report it
         let _ = self.device.poll(PollType::wait_indefinitely());
         fault().map_or(Ok(()), |fault| Err(self.lost(fault.reason)))
     }
@@ -274,7 +275,7 @@ impl Gpu {
     }
 }
 
-/// Whether an adapter has what is needed.
+/// Checks that an adapter has the required features.
 fn check(adapter: &Adapter) -> Result<(), GpuError> {
     match adapter.features().contains(NEEDED) {
         true => Ok(()),

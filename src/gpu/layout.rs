@@ -6,7 +6,7 @@ use bytemuck::{Pod, Zeroable};
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct ViewUniforms {
-    /// Metres around the scene's origin → clip space, depth 1 near and 0 far.
+    /// The transform from metres around the scene's origin to clip space, with depth 1 near and 0 far.
     pub clip_from_local: [[f32; 4]; 4],
     /// The viewer as a homogeneous point: the eye, or for the plan the direction straight up.
     pub viewer: [f32; 4],
@@ -16,9 +16,9 @@ pub struct ViewUniforms {
     pub up: [f32; 4],
     /// The camera's forward, a unit vector.
     pub forward: [f32; 4],
-    /// Height of the ground, metres.
+    /// The height of the ground, metres.
     pub ground_z: f32,
-    /// Height of the lowest point that is judged, metres.
+    /// The height of the lowest judged point, metres.
     pub lowest_z: f32,
     /// The height above itself at which a receiver is judged, metres.
     pub judged_above: f32,
@@ -26,7 +26,7 @@ pub struct ViewUniforms {
     pub depth_scale: f32,
     /// Columns and rows.
     pub size: [f32; 2],
-    /// WGSL rounds a struct up to its alignment.
+    /// Padding: WGSL rounds a struct up to its alignment.
     pub unused: [f32; 2],
 }
 
@@ -43,36 +43,37 @@ pub struct LightUniforms {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct MapUniforms {
-    /// Metres around the scene's origin → homogeneous column and row in texels, and depth in metres.
+    /// The transform from metres around the scene's origin to the homogeneous column and row in texels, and the depth
+    /// in metres.
     pub from_local: [[f32; 4]; 4],
-    /// One texel to the right, metres around the scene's origin (a lamp's: a metre before it).
+    /// One texel to the right, metres in the scene's axes (for a lamp, at a distance of one metre).
     pub across: [f32; 4],
-    /// One texel downwards, likewise.
+    /// One texel down, likewise.
     pub along: [f32; 4],
-    /// The ground's depth: metres per column, metres per row, metres at the map's corner, and 0. If the last number is
-    /// not 0, the depth is divided by that number plus the same sum.
+    /// The ground's depth: metres per column, metres per row, metres at the map's corner, and 0. If the last value is
+    /// not 0, the depth is that value divided by the same sum.
     pub ground: [f32; 4],
     /// A texel's width and height, metres; for a lamp, at a distance of one metre.
     pub texel: [f32; 2],
-    /// Texels a side.
+    /// The texels per side.
     pub size: f32,
-    /// Depth at the map's far side, metres.
+    /// The depth at the map's far side, metres.
     pub range: f32,
-    /// Depth at its near side, metres: 0 for the sun, more for a lamp.
+    /// The depth at its near side, metres: 0 for the sun, more for a lamp.
     pub near: f32,
     /// The bias against rounding of depths, metres.
     pub bias: f32,
-    /// The slope-scaled bias: how many texels of its slope deeper a face is drawn.
+    /// The slope-scaled bias, in texels.
     pub slope_bias: f32,
     /// The width of the penumbra per metre behind an edge.
     pub spread: f32,
-    /// Width of smoothies, metres; 0 where the light's disc decides.
+    /// The width of smoothies, metres; 0 for that of the light's penumbra.
     pub width: f32,
-    /// 1 where smoothies keep their alpha as it is drawn.
+    /// 1 if the alpha of smoothies is used as it is drawn.
     pub linear: f32,
-    /// Depth of the farthest receiver that is seen, metres.
+    /// The depth of the farthest visible receiver, metres.
     pub farthest: f32,
-    /// WGSL rounds a struct up to its alignment.
+    /// Padding: WGSL rounds a struct up to its alignment.
     pub unused: f32,
 }
 
@@ -88,19 +89,19 @@ pub struct PictureUniforms {
     pub hours: f32,
     /// The distance from the eye to what it looks at, metres.
     pub focus: f32,
-    /// 1 where sun and shadow are shown and the sun is below the horizon.
+    /// 1 if sun and shadow are shown and the sun is below the horizon.
     pub night: f32,
-    /// How strong the lines are, 0 to 1.
+    /// The strength of the lines, 0 to 1.
     pub lines: f32,
-    /// 1 where lines are drawn on both sides of a border.
+    /// 1 if lines are drawn on both sides of a border.
     pub both_sides: f32,
-    /// 1 where components have their own colours.
+    /// 1 if components have their own colours.
     pub tinted: f32,
-    /// 1 where volumes and silhouette lie over the picture.
+    /// 1 if volumes and silhouette are shown over the picture.
     pub overlay: f32,
-    /// 1 where cells have colours of their own.
+    /// 1 if cells have colours of their own.
     pub painted: f32,
-    /// WGSL rounds a struct up to its alignment.
+    /// Padding: WGSL rounds a struct up to its alignment.
     pub unused: f32,
 }
 
@@ -183,7 +184,7 @@ pub struct SearchUniforms {
     pub indices_per_wall: u32,
     /// 1 if walls are drawn half as often.
     pub halved: u32,
-    /// WGSL rounds a struct up to its alignment.
+    /// Padding: WGSL rounds a struct up to its alignment.
     pub unused: [u32; 2],
 }
 

@@ -1,13 +1,13 @@
-//! Loses a device when a test wants it to be lost.
+//! Loses a device for tests.
 
 use std::cell::Cell;
 
 thread_local! {
-    /// So many checks of a device from now on this thread a device is lost.
+    /// After this many further checks of a device on this thread, the device is lost.
     static TO_BE_LOST: Cell<Option<u32>> = const { Cell::new(None) };
 }
 
-/// Loses the device that is checked on this thread after that many other checks, as if its driver was reset.
+/// Loses the device that is checked on this thread after that many further checks, as if its driver was reset.
 pub fn lose_after(checks: u32) {
     TO_BE_LOST.set(Some(checks));
 }

@@ -1,4 +1,5 @@
-//! The machine, which knows no sun and no shadow: device, layouts, shaders, targets, compute passes, readback, timers.
+//! The GPU, without any knowledge of sun and shadow: device, layouts, shaders, targets, compute passes, readback,
+//! timers.
 
 mod compute;
 mod device;

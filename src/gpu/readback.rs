@@ -6,7 +6,7 @@ use wgpu::{
     TexelCopyBufferInfo, TexelCopyBufferLayout, TexelCopyTextureInfo, Texture, TextureAspect,
 };
 
-/// The most that is copied at once, bytes: a large raster comes in strips, so that no second copy of it is needed.
+/// The most bytes copied at once: a large raster is read in strips, so that no second copy of it is needed.
 const STRIP: u64 = 64 << 20;
 
 /// The values of a buffer (with `COPY_SRC`).
@@ -42,11 +42,11 @@ pub fn texels<T: bytemuck::Pod>(gpu: &Gpu, texture: &Texture, aspect: TextureAsp
     Ok(values)
 }
 
-/// Copies a texture of four bytes per texel into one of the same size on another device, to whose queue it is
-/// submitted, so that later work on that device sees it.
+/// Copies a texture of four bytes per texel to one of the same size on another device. The copy is submitted to that
+/// device's queue, so later work on it sees the result.
 ///
 /// # Errors
-/// [`GpuError::Lost`] where the first device fails; the other one hears of its own faults.
+/// [`GpuError::Lost`] if the first device fails; faults of the other one are recorded there.
 pub fn hand_over(gpu: &Gpu, texture: &Texture, queue: &Queue, to: &Texture) -> Result<(), GpuError> {
     let width = texture.width();
     strips(gpu, texture, TextureAspect::All, 4 * width, &mut |first, padded, bytes| {
@@ -57,7 +57,7 @@ pub fn hand_over(gpu: &Gpu, texture: &Texture, queue: &Queue, to: &Texture) -> R
     })
 }
 
-/// A texture's rows in strips: told with the first one's number, and how many bytes lie from one row to the next.
+/// The strips of a texture's rows, each with its first row, and the bytes per row.
 fn strips(
     gpu: &Gpu,
     texture: &Texture,

@@ -1,5 +1,5 @@
-//! The shaders' text: each stage is joined with the common parts that it uses. WGSL has no includes, and needs none
-//! here.
+//! The shaders' text: each stage is concatenated with the common parts that it uses. WGSL has no includes, and needs
+//! none here.
 
 use super::Gpu;
 use wgpu::{ShaderModule, ShaderModuleDescriptor, ShaderSource};

@@ -3,15 +3,15 @@
 use super::{Gpu, GpuError};
 use wgpu::*;
 
-/// The depth against which volumes are counted, with the stencil that counts.
+/// The depth format for counting volumes, with the stencil.
 pub(crate) const COUNTED: TextureFormat = TextureFormat::Depth32FloatStencil8;
-/// The depth of what is seen.
+/// The depth format of the G-buffer.
 pub(crate) const DEPTH: TextureFormat = TextureFormat::Depth32Float;
-/// Faces that are seen, and sums.
+/// The format of face indices and sums.
 pub(crate) const NUMBER: TextureFormat = TextureFormat::R32Uint;
-/// Fragments that are added up.
+/// The format of summed fragments.
 pub(crate) const SUMMED: TextureFormat = TextureFormat::R32Float;
-/// Masks.
+/// The format of masks.
 pub(crate) const SHARE: TextureFormat = TextureFormat::R8Unorm;
 
 impl Gpu {
@@ -36,7 +36,7 @@ impl Gpu {
         })
     }
 
-    /// A buffer of so many bytes, or the reason why the adapter has none so large.
+    /// A buffer of this size, or an error if the adapter's limit is lower.
     pub(crate) fn buffer(&self, label: &str, size: u64, usage: BufferUsages) -> Result<Buffer, GpuError> {
         if size > self.limits.max_buffer_size {
             return Err(self.failed(format!(
@@ -48,7 +48,7 @@ impl Gpu {
         Ok(self.device.create_buffer(&BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false }))
     }
 
-    /// A buffer with these values, and room for one even where there are none.
+    /// A buffer with these values; never empty.
     pub(crate) fn uploaded<T: bytemuck::Pod>(
         &self,
         label: &str,
@@ -95,7 +95,7 @@ impl Gpu {
         self.blending_pipeline(label, stages, depth_stencil, None)
     }
 
-    /// The same, where what is drawn does not simply replace what is there.
+    /// The same with a blend state.
     pub(crate) fn blending_pipeline(
         &self,
         label: &str,
@@ -128,20 +128,20 @@ impl Gpu {
     }
 }
 
-/// What varies between render pipelines.
+/// The varying parts of render pipelines.
 #[derive(Clone, Copy)]
 pub(crate) struct Stages<'a> {
     /// The compiled shader.
     pub(crate) module: &'a ShaderModule,
     /// Its vertex entry point.
     pub(crate) vertex: &'a str,
-    /// Its fragment entry point; empty where depth alone is drawn.
+    /// Its fragment entry point; empty to draw only depth.
     pub(crate) fragment: &'a str,
     /// Vertex buffers.
     pub(crate) buffers: &'a [Option<VertexBufferLayout<'a>>],
-    /// The colour target, and what of it is written.
+    /// The colour target, and the channels that are written.
     pub(crate) target: Option<(TextureFormat, ColorWrites)>,
-    /// Bind groups that several pipelines share; derived from the shader where none.
+    /// A layout that several pipelines share; `None` to derive it from the shader.
     pub(crate) layout: Option<&'a PipelineLayout>,
 }
 

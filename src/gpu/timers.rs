@@ -3,19 +3,19 @@
 use std::sync::Mutex;
 use wgpu::{Buffer, QuerySet};
 
-/// Passes that are timed between two readings; further ones are not.
+/// The greatest number of passes between two readings; more are not timed.
 pub(super) const MOST: u32 = 2048;
 
-/// Two times a pass.
+/// Two timestamps per pass.
 pub(super) struct Timers {
     pub(super) times: QuerySet,
     pub(super) resolved: Buffer,
-    /// Those of the passes, in order.
+    /// The labels of the passes, in order.
     pub(super) labels: Mutex<Vec<String>>,
 }
 
 impl Timers {
-    /// Where the next pass writes its two times.
+    /// Where the next pass writes its two timestamps.
     pub(super) fn place(&self, label: &str) -> Option<(&QuerySet, u32)> {
         let mut labels = self.labels.lock().ok()?;
         let at = labels.len() as u32;

@@ -1,5 +1,4 @@
-//! How long passes take on the adapter. Timing is off until [`Gpu::time_passes`] is called, and costs nothing while it
-//! is off.
+//! The time of passes on the adapter. Timing is off until [`Gpu::time_passes`] is called, and costs nothing until then.
 
 use super::timers::{MOST, Timers};
 use super::{Gpu, GpuError, readback};
@@ -10,10 +9,10 @@ impl Gpu {
     /// Starts timing passes.
     ///
     /// # Errors
-    /// [`GpuError::Failed`] where the adapter keeps no times.
+    /// [`GpuError::Failed`] if the adapter has no timestamps.
     pub fn time_passes(&self) -> Result<(), GpuError> {
         if !self.device.features().contains(Features::TIMESTAMP_QUERY) {
-            return Err(self.failed("passes are timed by the adapter's own clock, which it does not show"));
+            return Err(self.failed("timing passes needs timestamps, which the adapter does not have"));
         }
         let size = u64::from(MOST * 2 * QUERY_SIZE);
         let timers = Timers {
@@ -25,7 +24,7 @@ impl Gpu {
             resolved: self.buffer("timers", size, BufferUsages::QUERY_RESOLVE | BufferUsages::COPY_SRC)?,
             labels: Mutex::default(),
         };
-        // a second call changes nothing
+        // a second call has no effect
         let _ = self.timers.set(timers);
         self.check()
     }
@@ -50,8 +49,8 @@ impl Gpu {
         })
     }
 
-    /// The passes since the last reading, in order, each with label and milliseconds; all of them are submitted. `None`
-    /// if passes are not timed.
+    /// Returns the label and the milliseconds of each pass since the last reading, in order; all must be submitted.
+    /// `None` if passes are not timed.
     ///
     /// # Errors
     /// [`GpuError::Failed`]

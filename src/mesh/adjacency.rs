@@ -1,15 +1,15 @@
 //! Which faces meet at which edge.
 //!
-//! Components share no vertices, so neither an edge nor an order of edges by their vertices crosses a component.
+//! Components share no vertices, so neither edges nor the order of edges crosses a component.
 
 use super::{Incidence, Mesh};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Fills in the mesh's edges and what meets there.
+/// Finds the mesh's edges and the faces at them.
 ///
-/// Sides are sorted by their lower vertex in one pass, and then the few of each vertex by themselves.
+/// Sides are sorted by their lower vertex in one pass, then the few sides of each vertex.
 pub(super) fn find(mesh: &mut Mesh) {
     let lower = |[from, to]: [u32; 2]| from.min(to) as usize;
     let mut first = vec![0_u32; mesh.vertices.len() + 1];
@@ -19,7 +19,7 @@ pub(super) fn find(mesh: &mut Mesh) {
     for vertex in 1..first.len() {
         first[vertex] += first[vertex - 1];
     }
-    // the higher vertex, then the incidence, in one number
+    // the higher vertex and the incidence in one number
     let mut sorted = vec![0_u64; mesh.faces.len() * 3];
     let mut next = first.clone();
     for (face, corners) in mesh.faces.iter().enumerate() {
@@ -55,10 +55,10 @@ pub(super) fn find(mesh: &mut Mesh) {
     name_runs(mesh);
 }
 
-/// Vertices that one task looks at, at the least.
+/// The least number of vertices for one task.
 const LEAST_RUN: usize = 1 << 12;
 
-/// The edges whose lower ends are in a run of vertices, and where the sides of each begin among all. Sorts those sides.
+/// The edges whose lower vertex is in a range, and the index of the first side of each. Sorts the sides.
 fn edges_of(vertices: Range<usize>, first: &[u32], sides: &mut [u64]) -> (Vec<[u32; 2]>, Vec<u32>) {
     let mut edges = Vec::with_capacity(sides.len() / 2);
     let mut edge_first = Vec::with_capacity(sides.len() / 2);
@@ -80,12 +80,12 @@ fn edges_of(vertices: Range<usize>, first: &[u32], sides: &mut [u64]) -> (Vec<[u
     (edges, edge_first)
 }
 
-/// A face's sides, from vertex to vertex as it runs.
+/// A face's sides, in the direction in which it runs.
 fn sides(&[a, b, c]: &[u32; 3]) -> [[u32; 2]; 3] {
     [[a, b], [b, c], [c, a]]
 }
 
-/// Gives each component its run of edges. Components keep the order of their vertices, as of their faces.
+/// Sets the range of edges of each component. Edges are in the order of components, as vertices and faces are.
 fn name_runs(mesh: &mut Mesh) {
     let mut first = 0;
     for index in 0..mesh.components.len() {
@@ -97,7 +97,7 @@ fn name_runs(mesh: &mut Mesh) {
     }
 }
 
-/// Follows a forest of unions, in which each element leads to a lower one of its set, to the set's lowest.
+/// Finds the lowest element of a set in a union-find forest, whose links always lead to lower elements.
 pub(crate) fn lowest(above: &mut [u32], mut element: u32) -> u32 {
     while above[element as usize] != element {
         above[element as usize] = above[above[element as usize] as usize];
@@ -107,10 +107,10 @@ pub(crate) fn lowest(above: &mut [u32], mut element: u32) -> u32 {
 }
 
 impl Mesh {
-    /// One bit per face: whether its shell (the faces that are connected by edges) has an even number of faces at each
+    /// Returns one bit per face: whether its shell (the faces connected by edges) has an even number of faces at each
     /// edge, as closed surfaces have whatever their winding.
     pub fn in_even_shells(&self) -> Vec<bool> {
-        // union by the lower face, so that every face leads downwards to its shell's first
+        // union by lower index, so that every face links down to its shell's first face
         let mut above: Vec<u32> = (0..self.faces.len() as u32).collect();
         for edge in 0..self.edges.len() {
             for pair in self.faces_at(edge).windows(2) {

@@ -1,4 +1,4 @@
-//! Makes a mesh from parts, welded, around one origin; and a mesh of some components of another mesh.
+//! Builds a mesh from parts, welded, around one origin; and a mesh of some components of another mesh.
 
 use super::together::CornerGroups;
 use super::weld::{self, WeldedPart};
@@ -7,13 +7,13 @@ use glam::{DVec3, DVec4, Vec3};
 use rayon::prelude::*;
 use std::sync::{Arc, OnceLock};
 
-/// What one task looks at, at the least: models may have hundreds of thousands of parts with a dozen corners each.
+/// The least number of corners for one task: models may have hundreds of thousands of parts with a dozen corners each.
 const AT_ONCE: usize = 1 << 12;
-/// The same, in parts.
+/// The least number of parts for one task.
 const PARTS_AT_ONCE: usize = 1 << 6;
 
 impl Part {
-    /// Returns an error if a corner is no point, or a triangle has one that is not there.
+    /// Refuses corners that are not finite, and triangles with indices out of range.
     fn check(&self) -> Result<(), MeshError> {
         if !self.positions.par_iter().with_min_len(AT_ONCE).all(|corner| corner.is_finite()) {
             return Err(MeshError::NoPoint(self.name.clone()));
@@ -26,8 +26,7 @@ impl Part {
 }
 
 impl Mesh {
-    /// Welds the parts, each by itself, and finds planes and adjacency. The origin is the middle of what stands
-    /// together.
+    /// Welds each part separately, and computes planes and adjacency. The origin is the middle of what stands together.
     ///
     /// # Errors
     /// [`MeshError`]
@@ -36,7 +35,7 @@ impl Mesh {
     }
 
     /// As [`Mesh::build`], around a given origin, such as another mesh's. Positions have the precision of `f32` at
-    /// their distance from it: 0.06 mm at 1 km. An origin in whole metres costs no precision itself.
+    /// their distance from it: 0.06 mm at 1 km. An origin in whole metres adds no error of its own.
     ///
     /// # Errors
     /// [`MeshError`]; [`MeshError::FarFromOrigin`] beyond [`Mesh::FARTHEST_M`].
@@ -80,7 +79,7 @@ impl Mesh {
         for (component, welded) in welded {
             let (vertex, face) = (vertices.len() as u32, faces.len() as u32);
             if components.is_empty() {
-                // often there is but one
+                // often there is only one part
                 (vertices, faces) = (welded.vertices, welded.faces);
                 vertices.reserve_exact(corners - vertices.len());
                 faces.reserve_exact(triangles - faces.len());
@@ -120,13 +119,13 @@ impl Mesh {
         mesh
     }
 
-    /// The mesh of some components only. Planes stay those of the whole mesh.
+    /// Returns the mesh of some components. Planes stay those of the whole mesh.
     pub fn of_components(&self, keep: &[bool]) -> Mesh {
         let kept = self.components.iter().zip(keep).filter(|(_, keep)| **keep).map(|(component, _)| component.clone());
         self.taken(kept.collect(), |_| true)
     }
 
-    /// The mesh of some faces only. Planes stay those of the whole mesh; components without a face are left out.
+    /// Returns the mesh of some faces. Planes stay those of the whole mesh; components without faces are left out.
     pub fn of_faces(&self, keep: impl Fn(u32) -> bool) -> Mesh {
         let mut mesh = self.taken(self.components.clone(), keep);
         mesh.components.retain(|component| !component.faces.is_empty());
@@ -150,7 +149,7 @@ impl Mesh {
     }
 }
 
-/// A welded part, and the component that it becomes once all are welded.
+/// A welded part, and its future component.
 fn of_part(part: Part, origin: DVec3, together: &CornerGroups) -> (Component, WeldedPart) {
     let welded = weld::weld(&part, origin, together);
     let Part { name, aliases, positions, coarse, .. } = part;

@@ -1,7 +1,7 @@
-//! What stands there: welded, indexed triangles with named components and edge adjacency.
+//! The mesh: welded, indexed triangles with named components and edge adjacency.
 //!
-//! Real models are open, crowded and flipped. Nothing is repaired and nothing refused: the mesh is what the file says,
-//! [`report`] says what is wrong with it, and the shadow of defective parts is right by the rule in [`crate::volume`].
+//! Real models are open, crowded and flipped. Nothing is repaired, and nothing refused: the mesh is what the file says,
+//! [`report`] says what is wrong with it, and the rule in [`crate::volume`] makes the shadows of defective parts right.
 
 mod adjacency;
 mod build;

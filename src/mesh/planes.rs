@@ -1,8 +1,8 @@
-//! The planes of faces: one common plane for all faces that lie in it.
+//! The planes of faces: a common plane for coplanar neighbours.
 //!
-//! A modeller's wall is many triangles whose planes, each computed from its own rounded corners, differ in the last
-//! digits, so that some would face a low sun and some not. Neighbours that lie in the plane of a larger face therefore
-//! get its plane to the bit, so that either the whole wall faces the light or none of it.
+//! A wall is many triangles whose planes, each computed from its own rounded corners, differ in the last digits, so
+//! that some would face a low sun and others not. Neighbours in the plane of a larger face therefore get its plane to
+//! the bit, so that either the whole wall faces the light or none of it.
 
 use super::Mesh;
 use super::spacing::Spacing;
@@ -16,7 +16,7 @@ impl Mesh {
         self.planes.get_or_init(|| unified(self))
     }
 
-    /// One bit per face: whether the light is on its front side or in its plane.
+    /// Returns one bit per face: whether the light is on its front side or in its plane.
     ///
     /// Silhouettes, caps and shaders all read this bit, so that volumes are closed whatever the rounding. A face
     /// edge-on to the light, or without area, counts as facing it: its shadow is empty either way.
@@ -25,12 +25,12 @@ impl Mesh {
     }
 }
 
-/// Whether a light is on the front side of a plane or in it. This is the one place where that is decided.
+/// Whether a light is on the front side of a plane or in it. Only this function decides that.
 pub fn plane_faces(plane: DVec4, local_light: DVec4) -> bool {
     plane.dot(local_light) >= 0.0
 }
 
-/// The unit plane of each face; zero where its corners lie in a line, as far as `f32` can tell.
+/// The unit plane of each face; zero if its corners are collinear within the precision of `f32`.
 fn of_faces(mesh: &Mesh, spacing: &Spacing) -> Vec<DVec4> {
     let plane = |face: &[u32; 3]| {
         let corners = face.map(|vertex| mesh.vertices[vertex as usize]);
@@ -50,14 +50,14 @@ fn through(normal: DVec3, point: DVec3) -> DVec4 {
     normal.extend(-normal.dot(point))
 }
 
-/// How many lengths of a face its plane is carried with growing tolerance.
+/// The distance, in lengths of a face, up to which its plane's tolerance grows.
 const FARTHEST_CARRIED: f32 = 8.0;
 
-/// The unit plane of each face; larger faces hand theirs to their coplanar neighbours.
+/// The unit plane of each face, where larger faces pass theirs to coplanar neighbours.
 ///
-/// A neighbour joins when all its corners lie within two `f32` steps of the larger face's own plane (never of a
-/// neighbour's, so that a gentle curve is not flattened step by step); and, since a plane wavers the more the farther it
-/// is carried, within as many more as the corner is lengths of the larger face away, up to [`FARTHEST_CARRIED`].
+/// A neighbour joins if all its corners are within two `f32` steps of the larger face's own plane (never of a
+/// neighbour's, so that a gentle curve is not flattened step by step). Since a plane's error grows with distance, one
+/// more step is added for each length of the larger face that the corner is away, up to [`FARTHEST_CARRIED`].
 fn unified(mesh: &Mesh) -> Vec<DVec4> {
     let spacing = Spacing::of(mesh);
     let mut planes = of_faces(mesh, &spacing);
@@ -106,13 +106,13 @@ fn unified(mesh: &Mesh) -> Vec<DVec4> {
     planes
 }
 
-/// The area of a face as a vector along its winding's normal, square metres.
+/// A face's area vector along its normal, square metres.
 pub(super) fn area_vector(mesh: &Mesh, face: u32) -> DVec3 {
     let [a, b, c] = mesh.corners(face as usize).map(|corner| corner.as_dvec3());
     (b - a).cross(c - a) / 2.0
 }
 
-/// Per face its three edges.
+/// For each face, its three edges.
 pub(super) fn sides(mesh: &Mesh) -> Vec<[u32; 3]> {
     let mut sides = vec![[u32::MAX; 3]; mesh.faces.len()];
     for edge in 0..mesh.edges.len() {

@@ -1,21 +1,21 @@
-//! Which cells of a raster a triangle covers: scan conversion in double precision, one bit per cell.
+//! Finds the cells of a raster that a triangle covers: scan conversion in double precision, one bit per cell.
 //!
 //! Coordinates are in cells, and centres are whole numbers. A cell is covered if its centre lies in a triangle or on
-//! its edge. Two triangles that share an edge find the same columns along it, since an edge's columns are computed from
-//! its upper to its lower end in whichever direction the triangle runs along it.
+//! its edge. Two triangles that share an edge compute the same columns along it, since an edge's columns are always
+//! computed from its upper to its lower end.
 
 use glam::DVec2;
 use std::cmp::Ordering;
 use std::ops::Range;
 
-/// Tells for each row of some that a triangle reaches from which column to which it does. Its corners are in the order of
-/// rows, then columns ([`by_rows`]).
+/// Calls `tell` for each row in a range that a triangle reaches, with the first and last column. The corners must be
+/// sorted by rows, then columns ([`by_rows`]).
 pub(crate) fn spans([top, middle, bottom]: [DVec2; 3], of: Range<usize>, mut tell: impl FnMut(usize, f64, f64)) {
     let [long, upper, lower] =
         [TriangleSide::between(top, bottom), TriangleSide::between(top, middle), TriangleSide::between(middle, bottom)];
     for row in wholes([top.y, bottom.y], of) {
         let y = row as f64;
-        // at the middle's height both short sides end
+        // at the middle corner's height both short sides end
         let [one, other] = match (y <= middle.y, y >= middle.y) {
             (true, true) => [upper.x_at(y), lower.x_at(y)],
             (true, false) => [upper.x_at(y); 2],
@@ -26,23 +26,23 @@ pub(crate) fn spans([top, middle, bottom]: [DVec2; 3], of: Range<usize>, mut tel
     }
 }
 
-/// The order of corners by rows, then columns.
+/// Orders corners by rows, then columns.
 pub(crate) fn by_rows(one: DVec2, other: DVec2) -> Ordering {
     one.y.total_cmp(&other.y).then(one.x.total_cmp(&other.x))
 }
 
-/// The whole numbers of a range from one place to another, both included; none where a place is no number.
+/// The whole numbers from one position to another, both included; empty if one is NaN.
 pub(crate) fn wholes([from, to]: [f64; 2], of: Range<usize>) -> Range<usize> {
-    // a negative number, and what is none, become 0; rounding is a library call on processors without an instruction for it
+    // casts turn negative numbers and NaN into 0; rounding would be a library call on some processors
     let first = from as usize;
     let first = first.saturating_add(usize::from((first as f64) < from));
     let end = if to >= 0.0 { (to as usize).saturating_add(1) } else { 0 };
     first.clamp(of.start, of.end)..end.clamp(of.start, of.end)
 }
 
-/// Which cells are covered: one bit a cell, 64 a word.
+/// The covered cells: one bit per cell, 64 per word.
 pub(crate) struct Coverage {
-    /// Row after row, each of whole words.
+    /// Row by row, each in whole words.
     words: Vec<u64>,
     /// Words in a row.
     in_row: usize,
@@ -51,7 +51,7 @@ pub(crate) struct Coverage {
 }
 
 impl Coverage {
-    /// Nothing is covered.
+    /// No cell is covered.
     pub(crate) fn empty(width: u32, height: u32) -> Coverage {
         let in_row = width.div_ceil(64) as usize;
         let words = vec![0; in_row * height as usize];
@@ -63,7 +63,7 @@ impl Coverage {
         self.words[row as usize * self.in_row + column as usize / 64] >> (column % 64) & 1 == 1
     }
 
-    /// How many cells are covered.
+    /// The number of covered cells.
     pub(crate) fn count(&self) -> usize {
         self.words.iter().map(|word| word.count_ones() as usize).sum()
     }
@@ -75,7 +75,7 @@ impl Coverage {
         spans(corners, 0..height, |row, from, to| self.cover_row(row, from, to));
     }
 
-    /// Covers the cells of a row whose centres lie from one place to another.
+    /// Covers the cells of a row whose centres lie between two positions.
     fn cover_row(&mut self, row: usize, from: f64, to: f64) {
         let columns = wholes([from, to], 0..self.width);
         if columns.is_empty() {
@@ -95,16 +95,16 @@ impl Coverage {
     }
 }
 
-/// A triangle's side, from its upper to its lower end.
+/// A side of a triangle, from its upper to its lower end.
 pub(crate) struct TriangleSide {
     start: DVec2,
     end: DVec2,
-    /// Columns a row; not used where the side is level.
+    /// Columns per row; unused if the side is horizontal.
     slope: f64,
 }
 
 impl TriangleSide {
-    /// From the upper end to the lower.
+    /// A side from its upper to its lower end.
     pub(crate) fn between(start: DVec2, end: DVec2) -> TriangleSide {
         TriangleSide { start, end, slope: (end.x - start.x) / (end.y - start.y) }
     }

@@ -3,8 +3,8 @@
 use super::Mesh;
 use glam::Vec3;
 
-/// The distance between neighbouring `f32` numbers at the largest coordinate of what stands together, metres; farther off it
-/// grows with the distance of the points that are asked about.
+/// The distance between neighbouring `f32` values at the largest coordinate of what stands together, metres. For points
+/// beyond that, it grows with their distance.
 pub(super) struct Spacing {
     home: f32,
 }

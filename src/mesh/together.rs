@@ -1,4 +1,4 @@
-//! What stands together. Drawings contain leftovers, often a thousand kilometres from the model, and these must not
+//! Finds what stands together. Drawings contain leftovers, often a thousand kilometres from the model, which must not
 //! reduce the precision of the model.
 //!
 //! Corners stand together if they lie in neighbouring cells of a grid. There are two grids. In the fine one, groups
@@ -12,24 +12,24 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
 
-/// A cell of the grid in which corners are welded, metres: a millionth of it is far below what anyone models.
+/// A cell of the grid for welding, metres: a millionth of it is far below any detail.
 const WELD_CELL_M: f64 = 250.0;
-/// A cell of the grid by which strays are told from what stands at home, metres.
+/// A cell of the grid that separates strays from what stands at home, metres.
 const HOME_CELL_M: f64 = 10_000.0;
-/// Models nearer to the place than this are those that a study is about, metres.
+/// Models closer to the place than this are probably those of the study, metres.
 const NEAR_M: f64 = 20_000.0;
-/// One triangle near the place counts as many far ones, when it comes to which group is at home.
+/// The weight of a triangle near the place in the choice of the group at home.
 const NEAR_COUNTS: u64 = 1000;
 
-/// The parts' corners in groups that stand together.
+/// The corners of all parts, in groups that stand together.
 pub(super) struct CornerGroups {
-    /// What is welded each for itself; none where all is one.
+    /// The groups that are welded separately; `None` if there is only one.
     welded: Option<Clusters>,
-    /// The group that is meant: most of the triangles, above all of those near the place.
+    /// The group at home: the one with the most triangles, especially near the place.
     home: CornerGroup,
 }
 
-/// The corners that stand together: a box around them, and how many they are.
+/// A group of corners: its box, and their number.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CornerGroup {
     pub(super) low: DVec3,
@@ -46,7 +46,7 @@ impl CornerGroup {
             CornerGroup { low: self.low.min(corner), high: self.high.max(corner), corners: self.corners + 1, ..*self };
     }
 
-    /// From corner to corner of its box, metres.
+    /// The diagonal of its box, metres.
     pub(super) fn size(&self) -> f64 {
         if self.low.x <= self.high.x { (self.high - self.low).length() } else { 0.0 }
     }
@@ -56,7 +56,7 @@ impl CornerGroup {
         self.low.abs().max(self.high.abs()).max_element()
     }
 
-    /// How far it is from the place, along the ground.
+    /// Its horizontal distance from the place.
     fn distance(&self) -> f64 {
         DVec3::ZERO.clamp(self.low, self.high).truncate().length()
     }
@@ -71,24 +71,24 @@ impl CornerGroups {
         let points = || parts.par_iter().flat_map(|part| part.positions.par_iter().copied());
         let low = points().reduce(|| DVec3::INFINITY, DVec3::min);
         let high = points().reduce(|| DVec3::NEG_INFINITY, DVec3::max);
-        // neighbouring cells at most
+        // all corners are in neighbouring cells
         let are_one = |cell_m: f64| (high - low).max_element() <= cell_m;
         let home = if are_one(HOME_CELL_M) { CornerGroup { low, high, ..CornerGroup::NONE } } else { home(parts) };
         let clusters = (!are_one(WELD_CELL_M)).then(|| Clusters::of(parts, WELD_CELL_M, false));
         CornerGroups { welded: clusters.filter(|clusters| !clusters.is_one()), home }
     }
 
-    /// A box around what stands at home; none where there are no corners.
+    /// The box around what stands at home; `None` without corners.
     pub(super) fn home(&self) -> Option<(DVec3, DVec3)> {
         (self.home.low.x <= self.home.high.x).then_some((self.home.low, self.home.high))
     }
 
-    /// Whether a corner lies in that box.
+    /// Whether a corner is in that box.
     pub(super) fn is_home(&self, corner: DVec3) -> bool {
         corner.cmpge(self.home.low).all() && corner.cmple(self.home.high).all()
     }
 
-    /// The groups in which a part has corners that are welded; and per corner which of them it is in, where there are several.
+    /// The groups of a part's corners that are welded separately; and the group of each corner, if there are several.
     pub(super) fn in_part(&self, part: &Part) -> (Vec<CornerGroup>, Option<Vec<u32>>) {
         let mut groups: Vec<CornerGroup> = Vec::new();
         let Some(clusters) = &self.welded else {
@@ -112,8 +112,8 @@ impl CornerGroups {
     }
 }
 
-/// The group that is at home. One triangle may reach from it to a stray: a group's triangles are those of which no corner
-/// lies elsewhere, and only where no group has one do triangles join what they reach.
+/// Finds the group at home. A triangle may extend from it to a stray: a group's triangles are those with all corners in
+/// it. Only if no group has any, triangles join what they touch.
 fn home(parts: &[Part]) -> CornerGroup {
     let groups = |joined: bool| -> Vec<CornerGroup> {
         let clusters = Clusters::of(parts, HOME_CELL_M, joined);
@@ -144,16 +144,16 @@ fn home(parts: &[Part]) -> CornerGroup {
         .unwrap_or(CornerGroup::NONE)
 }
 
-/// Per occupied cell of a grid its group: cells that are neighbours, and on.
+/// The group of each occupied cell of a grid: connected neighbouring cells.
 struct Clusters {
     cell_m: f64,
     group_of: FxHashMap<[i64; 3], u32>,
 }
 
 impl Clusters {
-    /// Triangles join the cells of their corners, too, where they are said to.
+    /// Optionally, triangles also join the cells of their corners.
     fn of(parts: &[Part], cell_m: f64, joined_by_triangles: bool) -> Clusters {
-        // cells by the order in which they appear, and a forest of those that belong together
+        // cells in order of appearance, and a union-find forest
         let mut cells: Vec<[i64; 3]> = Vec::new();
         let mut number: FxHashMap<[i64; 3], u32> = FxHashMap::default();
         let mut above: Vec<u32> = Vec::new();
@@ -201,7 +201,7 @@ impl Clusters {
     }
 }
 
-/// Remembers the last answer: a corner lies in the cell of the one before it, as a rule.
+/// Caches the last answer: a corner is usually in the cell of the one before it.
 fn remembering(mut find: impl FnMut([i64; 3]) -> u32) -> impl FnMut([i64; 3]) -> u32 {
     let mut last = None;
     move |cell| match last {

@@ -1,32 +1,32 @@
-//! The mesh: welded triangles, grouped by component, and which of them meet at an edge.
+//! The mesh: welded triangles, grouped by component, with edge adjacency.
 
 use super::CornerPrecision;
 use glam::{DVec3, DVec4, Vec3};
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
-/// A named part of the mesh, a run of its faces. Adjacency never crosses it, and no vertex is shared across it.
+/// A named part of the mesh: a range of its faces. It shares no vertices and no edges with others.
 #[derive(Clone, Debug)]
 pub struct Component {
     /// The name, such as `node/material` of glTF, or `IfcWindow/Glass` of IFC.
     pub name: String,
-    /// Further names by which `casts` and `receives` can select it: those of its node, mesh, material, storey or layer.
+    /// Other names by which `casts` and `receives` can select it: those of its node, mesh, material, storey or layer.
     pub aliases: Vec<String>,
     /// The range of its faces.
     pub faces: Range<u32>,
     /// The range of its edges.
     pub edges: Range<u32>,
-    /// Lines that were triangles in the file, until welding joined two of their corners.
+    /// Triangles that became lines because welding joined two of their corners.
     pub collapsed: Arc<[[u32; 2]]>,
-    /// The number of those whose three corners are apart in the file: welding has changed what the file says.
+    /// The number of those whose corners were distinct in the file: there welding has changed the shape.
     pub flattened: usize,
-    /// The coarsest precision of its corners, strays left out; `None` if the file writes all of them finely.
+    /// The coarsest precision of its corners except strays; `None` if all are finely written.
     pub coarse: Option<CornerPrecision>,
-    /// Whether it is terrain: the ground as it was measured.
+    /// Whether it is terrain: the measured ground.
     pub is_terrain: bool,
 }
 
-/// A face at an edge: its index, and whether it runs along the edge (from its first vertex to its second) or against
+/// A face at an edge: its index, and whether it runs along the edge (from its first to its second vertex) or against
 /// it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Incidence(pub(super) u32);
@@ -47,23 +47,23 @@ impl Incidence {
     }
 }
 
-/// Welded triangles with planes and adjacency, `f32` around `origin`. A copy shares all large data.
+/// Welded triangles with planes and adjacency, in `f32` relative to `origin`. Clones share the large data.
 #[derive(Clone, Debug)]
 pub struct Mesh {
     /// The world position of the local origin, in whole metres unless it was given.
     pub origin: DVec3,
-    /// The vertices, metres around `origin`, shared with meshes that were made from this one.
+    /// The vertices, metres relative to `origin`, shared with meshes that were made from this one.
     pub vertices: Arc<Vec<Vec3>>,
     /// Three vertices per face, counter-clockwise seen from outside; grouped by component.
     pub faces: Arc<Vec<[u32; 3]>>,
     pub(super) planes: Arc<OnceLock<Vec<DVec4>>>,
-    /// The lowest and highest corner of a box around what stands together, around `origin`; what lies outside is far off.
+    /// The box around what stands together, relative to `origin`: lowest and highest corner. Strays are outside of it.
     pub(super) home: [Vec3; 2],
     /// The components.
     pub components: Vec<Component>,
     /// Two vertices per edge, the lower index first; grouped by component.
     pub edges: Arc<Vec<[u32; 2]>>,
-    /// Where each edge's faces begin in `incidences`; one longer than `edges`.
+    /// The index in `incidences` of each edge's first face; one entry more than `edges`.
     pub(super) edge_first: Arc<Vec<u32>>,
     pub(super) incidences: Arc<Vec<Incidence>>,
 }
@@ -71,8 +71,8 @@ pub struct Mesh {
 impl Mesh {
     /// The greatest number of faces of a mesh.
     pub const MOST_FACES: usize = 1 << 30;
-    /// The greatest distance of a vertex from the origin, metres. There `f32` still has steps of half a metre, which is
-    /// coarse, but a model so large has the same steps in its file.
+    /// The greatest distance of a vertex from the origin, metres. There, `f32` still has steps of half a metre, which
+    /// is coarse, but a model so large has the same steps in its file.
     pub const FARTHEST_M: f64 = 8.0e6;
 
     /// The faces at an edge.
@@ -80,17 +80,17 @@ impl Mesh {
         &self.incidences[self.edge_first[edge] as usize..self.edge_first[edge + 1] as usize]
     }
 
-    /// The corners of a face, metres around `origin`.
+    /// The corners of a face, metres relative to `origin`.
     pub fn corners(&self, face: usize) -> [Vec3; 3] {
         self.faces[face].map(|vertex| self.vertices[vertex as usize])
     }
 
-    /// The lowest and highest corner of a box around the faces, metres of the world frame; `None` without faces.
+    /// The box around the faces in metres of the world frame: lowest and highest corner. `None` without faces.
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
         self.bounds_of(0..self.faces.len() as u32)
     }
 
-    /// The same for a run of faces.
+    /// The same for a range of faces.
     pub fn bounds_of(&self, run: Range<u32>) -> Option<(DVec3, DVec3)> {
         self.bounds_where(run, |_| true)
     }
@@ -105,24 +105,24 @@ impl Mesh {
         (low.x <= high.x).then(|| (low.as_dvec3() + self.origin, high.as_dvec3() + self.origin))
     }
 
-    /// As [`Mesh::bounds`], for what stands together: strays are left out.
+    /// As [`Mesh::bounds`], for what stands together, without strays.
     pub fn bounds_at_home(&self) -> Option<(DVec3, DVec3)> {
         self.bounds_where(0..self.faces.len() as u32, |vertex| self.is_at_home(vertex)).or_else(|| self.bounds())
     }
 
-    /// The lowest and highest corner of a box around what stands together, metres around `origin`.
+    /// The box around what stands together, metres relative to `origin`: lowest and highest corner.
     pub fn home(&self) -> [Vec3; 2] {
         self.home
     }
 
-    /// Whether a vertex is part of what stands together, and not a stray.
+    /// Whether a vertex belongs to what stands together, and is not a stray.
     pub fn is_at_home(&self, vertex: u32) -> bool {
         let [low, high] = self.home;
         let at = self.vertices[vertex as usize];
         at.cmpge(low).all() && at.cmple(high).all()
     }
 
-    /// The height of the highest vertex of a face, metres of the world frame; −∞ without faces.
+    /// The height of the highest vertex of any face, metres of the world frame; −∞ without faces.
     pub fn top(&self) -> f64 {
         self.bounds().map_or(f64::NEG_INFINITY, |(_, high)| high.z)
     }
@@ -133,7 +133,8 @@ impl Mesh {
         self.components.get(at).is_some_and(|component| component.is_terrain)
     }
 
-    /// The homogeneous light (sun: w = 0, lamp: w = 1) of the world frame, in the frame of the planes around `origin`.
+    /// Converts a homogeneous light (sun: w = 0, lamp: w = 1) from the world frame to the frame of the planes, relative
+    /// to `origin`.
     pub fn local_light(&self, light: DVec4) -> DVec4 {
         light - DVec4::from((self.origin, 0.0)) * light.w
     }

@@ -1,38 +1,39 @@
-//! Welds corners that lie on each other into one vertex.
+//! Welds coincident corners into one vertex.
 
 use super::Part;
 use super::together::{CornerGroup, CornerGroups};
 use glam::{DVec3, UVec3, Vec3};
 use rustc_hash::FxHashMap;
 
-/// How far apart two corners may lie and still be one vertex, as a part of the size of what stands together: eight to
+/// The distance within which two corners are one vertex, as a share of the size of what stands together: eight to
 /// sixteen steps of `f32` at its ends.
 const TOLERANCE: f64 = 1e-6;
-/// And never farther than this, metres: a receiver is judged so far above itself, and models have no smaller details.
+/// The upper limit of that distance, metres: receivers are judged this far above themselves, and models have no smaller
+/// details.
 const MOST_M: f64 = 0.001;
 
-/// And at least so many steps of `f32` at the largest coordinate: one either way on each axis is what files round.
+/// The lower limit, in steps of `f32` at the largest coordinate: files round by one step either way on each axis.
 const LEAST_STEPS: f64 = 2.0;
 
-/// How far apart corners may lie and still be one vertex, where so much of a component stands together, and no coordinate is
-/// larger than `reach`; metres.
+/// The distance within which corners are one vertex, for a component of this size that stands together, with no
+/// coordinate larger than `reach`; metres.
 pub(super) fn tolerance(size: f64, reach: f64) -> f64 {
     let reach = reach as f32;
     let step = f64::from(reach.next_up() - reach);
     (size * TOLERANCE).max(LEAST_STEPS * step).min(MOST_M)
 }
 
-/// A welded part; its vertices are counted from its own first one.
+/// A welded part. Its vertex indices start at 0.
 pub(super) struct WeldedPart {
     pub(super) vertices: Vec<Vec3>,
     pub(super) faces: Vec<[u32; 3]>,
-    /// The triangles that collapsed, as two of their corners became one, each as the line that is left.
+    /// The triangles that collapsed because two of their corners were joined, each as the remaining line.
     pub(super) collapsed: Vec<[u32; 2]>,
-    /// How many of those have three corners apart in the file.
+    /// The number of those whose three corners were distinct in the file.
     pub(super) flattened: usize,
 }
 
-/// A part's vertices around the origin, and its faces. What stands far from each other is welded each for itself.
+/// Welds a part relative to the origin. Groups that are far from each other are welded separately.
 pub(super) fn weld(part: &Part, origin: DVec3, together: &CornerGroups) -> WeldedPart {
     let local = |position: DVec3| (position - origin).as_vec3();
     let welder = |group: &CornerGroup| {
@@ -75,24 +76,24 @@ pub(super) fn weld(part: &Part, origin: DVec3, together: &CornerGroups) -> Welde
     welded
 }
 
-/// Finds the vertex that lies on a point, in a grid whose cells are some tolerances wide. Cells share buckets: one that
-/// is looked up in vain costs a glance at its bucket's last vertex.
+/// Finds the vertex at a point, in a grid whose cells are a few tolerances wide. Cells share the buckets of a hash
+/// table: an unsuccessful search costs a look at the bucket's last vertex.
 struct Welder {
     tolerance: f32,
-    /// Where the grid begins, and how many cells it has a metre.
+    /// The grid's lower corner, and the number of cells per metre.
     low: Vec3,
     cells_a_metre: f32,
     vertices: Vec<Vec3>,
-    /// A bucket's last vertex, and for each vertex the one before it in its bucket.
+    /// Each bucket's last vertex, and for each vertex the one before it in its bucket.
     last: Vec<u32>,
     before: Vec<u32>,
-    /// Points that became another one's vertex; an equal point becomes the same.
+    /// Points that were joined to another vertex; an equal point is joined to the same one.
     welded: FxHashMap<[u32; 3], u32>,
 }
 
-/// Before a bucket's first vertex.
+/// Marks the end of a bucket's list.
 const NONE: u32 = u32::MAX;
-/// Tolerances that a cell is wide: so few that vertices which are not one do not crowd in it.
+/// The width of a cell in tolerances: small enough that few distinct vertices share one.
 const CELL: f32 = 16.0;
 
 impl Welder {
@@ -110,7 +111,7 @@ impl Welder {
 
     fn vertex(&mut self, point: Vec3) -> u32 {
         let cells = [self.cell(point - self.tolerance), self.cell(point + self.tolerance)];
-        // most points are nowhere near their cell's border
+        // most points are not near their cell's border
         let is_within = cells[0] == cells[1];
         let bucket = self.bucket(if is_within { cells[0] } else { self.cell(point) });
         if let Some(equal) = self.in_bucket(bucket).find(|&vertex| self.vertices[vertex as usize] == point) {
@@ -134,7 +135,7 @@ impl Welder {
         vertex
     }
 
-    /// A vertex near to a point in any of the cells from the low to the high one.
+    /// A vertex near a point in any cell of a range.
     fn in_any(&self, point: Vec3, [low, high]: [UVec3; 2]) -> Option<u32> {
         for x in low.x..=high.x {
             for y in low.y..=high.y {
@@ -149,7 +150,7 @@ impl Welder {
         None
     }
 
-    /// A vertex of a bucket near to a point.
+    /// A vertex of a bucket near a point.
     fn nearby(&self, point: Vec3, bucket: usize) -> Option<u32> {
         self.in_bucket(bucket).find(|&vertex| self.vertices[vertex as usize].distance(point) <= self.tolerance)
     }

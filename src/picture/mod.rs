@@ -24,7 +24,7 @@ use std::sync::Arc;
 use texels::write;
 use wgpu::*;
 
-/// The hours of shadow of a profile, to be laid over the scene.
+/// The hours of shadow of a profile, to show on the scene.
 #[derive(Clone, Copy, Debug)]
 pub struct HoursRaster<'a> {
     /// West and north edge, metres of the world frame.
@@ -42,7 +42,7 @@ pub struct HoursRaster<'a> {
 /// How a picture is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Style {
-    /// The distance from the eye to what it looks at, metres; what lies far behind that is hazy.
+    /// The distance from the eye to what it looks at, metres; things far behind that are hazy.
     pub focus_m: f64,
     /// The strength of the lines, 0 to 1.
     pub lines: f32,
@@ -50,8 +50,7 @@ pub struct Style {
     pub wide_lines: bool,
     /// Whether components have their own colours, as [`Picture::tint`] sets them.
     pub tinted: bool,
-    /// Whether hours are shown instead of sun and shadow, as [`Picture::lay_hours`] or [`Picture::lay_patches`] sets
-    /// them.
+    /// Whether hours are shown instead of sun and shadow, as set by [`Picture::lay_hours`] or [`Picture::lay_patches`].
     pub hours: bool,
 }
 
@@ -70,11 +69,11 @@ pub struct Picture {
     terrain: Vec<Range<u32>>,
     overlay: [Option<Texture>; 2],
     cells: Option<Texture>,
-    /// Bound where there is nothing: in colours, and in numbers.
+    /// Bound to unused slots: a colour texture and a number texture.
     nothing: [Texture; 2],
 }
 
-/// What lies over the scene.
+/// What is shown on the scene.
 enum HoursTextures {
     /// The plan's cells (corner and cell): their colours and heights.
     Plan([f32; 3], [Texture; 2]),
@@ -152,7 +151,7 @@ impl Picture {
         gpu.texture("picture", view.size(), COLOURS, usage)
     }
 
-    /// Gives each face of the receivers its colour, and says which of them are terrain.
+    /// Sets the colour of each face of the receivers, and which of them are terrain.
     pub fn tint(&mut self, colours: impl Iterator<Item = [u8; 3]>) {
         let mut texels: Vec<[u8; 4]> = colours.map(|[red, green, blue]| [red, green, blue, 0]).collect();
         let rows = texels.len().div_ceil(PLANES_WIDTH).max(1);
@@ -165,7 +164,7 @@ impl Picture {
         self.tints = Some(self.upload("picture.tints", size, COLOURS, bytemuck::cast_slice(&texels)));
     }
 
-    /// Lays hours over the scene, or removes them.
+    /// Shows hours on the scene, or removes them.
     pub fn lay_hours(&mut self, hours: Option<HoursRaster<'_>>) {
         self.hours = hours.map(|hours| {
             let texels: Vec<[u8; 4]> = hours.colours.iter().map(|&[r, g, b]| [r, g, b, 255]).collect();
@@ -180,18 +179,18 @@ impl Picture {
         });
     }
 
-    /// Lays patches over the scene. Faces without a patch stay plain.
+    /// Shows patches on the scene. Faces without a patch stay plain.
     ///
     /// # Errors
-    /// Where the adapter cannot hold them.
+    /// If the adapter cannot hold them.
     pub fn lay_patches(&mut self, colours: &PatchColours<'_>) -> Result<(), ShadowError> {
         self.hours = None;
         self.hours = Some(HoursTextures::Patches(textures(&self.surface.gpu, colours, self.origin)?));
         Ok(())
     }
 
-    /// Lays shadow volumes (layers) and silhouette (ink) over the view, in rasters of the view's size or a whole number
-    /// of times finer.
+    /// Shows shadow volumes (layers) and silhouette (ink) over the view, in rasters of the view's size or an integer
+    /// multiple of it.
     pub fn lay_overlay(&mut self, size: (u32, u32), layers: Option<&[u8]>, ink: Option<&[u8]>) {
         self.overlay = [("picture.volumes", layers), ("picture.silhouette", ink)]
             .map(|(label, values)| values.map(|values| self.upload(label, size, SHARE, values)));
@@ -203,7 +202,7 @@ impl Picture {
         self.cells = Some(self.upload("picture.cells", size, COLOURS, bytemuck::cast_slice(&texels)));
     }
 
-    /// Removes what was laid over a single view.
+    /// Removes everything that belongs to a single view.
     pub fn clear(&mut self) {
         (self.overlay, self.cells) = ([None, None], None);
     }
@@ -212,7 +211,7 @@ impl Picture {
     /// it is night, whatever the mask.
     ///
     /// # Errors
-    /// Where the adapter fails.
+    /// If the adapter fails.
     pub fn draw(
         &mut self,
         mask: &DrawnMask<'_>,
@@ -257,9 +256,9 @@ impl Picture {
             hours_cell: cell,
             hours,
             focus: style.focus_m.max(1e-3) as f32,
-            // hours are of a day, whatever the clock says
+            // hours belong to a day, whatever the clock says
             night: is(to_sun.z <= 0.0 && hours == 0.0),
-            // lines would be taken for cells
+            // lines could be mistaken for cells
             lines: if self.cells.is_some() { 0.0 } else { style.lines },
             both_sides: is(style.wide_lines),
             tinted: is(style.tinted && self.tints.is_some()),
@@ -269,7 +268,7 @@ impl Picture {
         }
     }
 
-    /// Binds the mask, and all that lies over what is seen.
+    /// Binds the mask, and everything that is shown over the scene.
     fn bind(&self, share: &Texture) -> BindGroup {
         let (plan, patches) = match &self.hours {
             None => (None, None),
@@ -316,7 +315,7 @@ impl Picture {
     }
 }
 
-/// The look as the shader takes it.
+/// The look as the shader's uniform.
 fn uniform(look: &Look) -> layout::LookUniforms {
     let linear = |colour: DVec3| colour.as_vec3().to_array();
     let bytes = |colour: [u8; 3]| colour.map(|value| f32::from(value) / 255.0);

@@ -22,7 +22,7 @@ pub struct VolumePicture {
     camera: Camera,
     surface: GpuSurface,
     volume: Volume,
-    /// Each vertex twice: where it is, and where its wall ends.
+    /// Each vertex twice: at its place, and at the end of its wall.
     vertices: Buffer,
     judging: RenderPipeline,
     wall: RenderPipeline,
@@ -145,12 +145,12 @@ impl VolumePicture {
 fn volume(scene: &Scene, to_sun: DVec3) -> Volume {
     let casters = &scene.casters;
     let mut volume = Volume::find(casters, &mut *ProcessorFinder::BruteForce.build(casters), to_sun.extend(0.0), true);
-    // an edge's walls stand in a row
+    // repeated walls are consecutive
     volume.walls.dedup();
     volume
 }
 
-/// What counts walls, and caps: fronts and backs both count upwards.
+/// The pipelines that count walls and caps: fronts and backs both count upwards.
 fn layers(surface: &GpuSurface) -> [RenderPipeline; 2] {
     let gpu = &surface.gpu;
     let module = gpu.shader("overlay.volumes", shaders::STENCIL);
@@ -181,7 +181,7 @@ fn layers(surface: &GpuSurface) -> [RenderPipeline; 2] {
     })
 }
 
-/// What draws the silhouette: where lines overlap, the one that covers more.
+/// The pipeline that draws the silhouette: where lines overlap, the higher coverage.
 fn lines(surface: &GpuSurface) -> RenderPipeline {
     let gpu = &surface.gpu;
     let ends = VertexBufferLayout {

@@ -8,10 +8,10 @@ use crate::shadow::bindings::PLANES_WIDTH;
 use glam::DVec3;
 use wgpu::*;
 
-/// A face without a patch (`NO_PATCH` of `shaders/picture.wgsl`).
+/// Marks a face without a patch (`NO_PATCH` of `shaders/picture.wgsl`).
 const NO_PATCH: u32 = u32::MAX;
 
-/// Colours of flat patches, to be laid over the scene.
+/// Colours of flat patches, to show on the scene.
 #[derive(Clone, Copy, Debug)]
 pub struct PatchColours<'a> {
     /// The patches.
@@ -22,17 +22,17 @@ pub struct PatchColours<'a> {
     pub pages: &'a [Vec<[u8; 3]>],
 }
 
-/// Which patch each face has, the patches' frames, and the pages.
+/// The textures for each face's patch, the patches' frames, and the pages.
 pub(super) fn textures(gpu: &Gpu, colours: &PatchColours<'_>, origin: DVec3) -> Result<[Texture; 3], ShadowError> {
     let patches = colours.patches;
     let (layers, most) = (patches.pages.max(1), gpu.limits.max_texture_array_layers);
     if layers > most {
-        let why = format!("the surfaces fill {layers} textures of at most {most}; take larger texels");
+        let why = format!("the surfaces fill {layers} textures of at most {most}; use larger texels");
         return Err(GpuError::Failed { adapter: gpu.name().to_owned(), reason: why }.into());
     }
     let numbers = colours.patch_of.iter().map(|patch| patch.unwrap_or(NO_PATCH)).collect();
     let numbers = rows(gpu, "picture.patch_of", TextureFormat::R32Uint, numbers, NO_PATCH)?;
-    // an own origin in f64, so that nothing is lost far away
+    // differences of origins in f64, so that nothing is lost far away
     let apart = patches.origin - origin;
     let frame = |patch: &crate::mesh::patches::Patch| {
         let row = |along: DVec3, last: f64| along.extend(last).as_vec4().to_array();
@@ -73,7 +73,7 @@ pub(super) fn textures(gpu: &Gpu, colours: &PatchColours<'_>, origin: DVec3) -> 
     Ok([numbers, frames, atlas])
 }
 
-/// Texels one after the other, in rows as planes have.
+/// A texture of texels in order, in rows as for planes.
 fn rows<T: bytemuck::Pod>(
     gpu: &Gpu,
     label: &str,
@@ -84,7 +84,7 @@ fn rows<T: bytemuck::Pod>(
     let rows = texels.len().div_ceil(PLANES_WIDTH).max(1);
     let most = gpu.limits.max_texture_dimension_2d as usize;
     if rows > most {
-        let why = format!("the surfaces take {rows} rows of a texture, of which it has {most}; take larger texels");
+        let why = format!("the surfaces need {rows} rows of a texture, which has at most {most}; use larger texels");
         return Err(GpuError::Failed { adapter: gpu.name().to_owned(), reason: why }.into());
     }
     texels.resize(rows * PLANES_WIDTH, empty);

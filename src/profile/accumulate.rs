@@ -1,4 +1,4 @@
-//! Adds up masks times weights, where the masks are, in integers.
+//! Sums masks times weights as integers, on the machine where the masks are.
 
 use super::Shaded;
 use crate::gpu::layout::WeightUniforms;
@@ -12,14 +12,14 @@ use wgpu::*;
 
 /// The running sum of shaded time, in 1/255 s.
 ///
-/// It runs in words of 32 bits, and is poured over into 64 before one of them could overflow. Masks of bits are counted
-/// first, some of one weight together, and added then.
+/// It accumulates in words of 32 bits, and is transferred to 64 bits before one of them could overflow. Masks of bits
+/// are first counted, several with one weight together, and then added.
 pub struct Sum {
     running: RunningSum,
     counted: BitCounts,
-    /// How many seconds may be in the running words.
+    /// The greatest number of seconds in the 32-bit words so far.
     secs: u32,
-    /// What was poured over.
+    /// The sums in 64 bits, once there are some.
     poured: Option<Vec<u64>>,
 }
 
@@ -30,20 +30,20 @@ enum RunningSum {
     Texture(Box<GpuSum>),
 }
 
-/// How often cells were in shadow at some instants of one weight. Each word's 64 cells count in parallel: the first of its
-/// planes holds the lowest digits of their numbers.
+/// The number of times that cells were in shadow, over several instants with one weight. The 64 cells of each word are
+/// counted in parallel: the first plane holds the lowest digits of their counts.
 #[derive(Default)]
 struct BitCounts {
     planes: Vec<[u64; BitCounts::PLANES]>,
     width: u32,
-    /// The instants, and how many seconds each stands for.
+    /// The number of instants, and the seconds for which each stands.
     instants: u32,
     secs: u32,
 }
 
 impl BitCounts {
     const PLANES: usize = 4;
-    /// So many instants can be counted.
+    /// The greatest number of instants.
     const MOST: u32 = (1 << Self::PLANES) - 1;
 
     fn count(&mut self, bits: &Bits) {
@@ -59,7 +59,7 @@ impl BitCounts {
         self.instants += 1;
     }
 
-    /// Adds what was counted to the sum, and begins at 0 again.
+    /// Adds the counts to the sum, and resets them.
     fn add_to(&mut self, sum: &mut [u32]) {
         if self.instants == 0 {
             return;
@@ -79,7 +79,7 @@ impl BitCounts {
     }
 }
 
-/// Adds to the sums of a word's cells, of which the planes count, each with its weight.
+/// Adds counts in planes to the sums of a word's cells; each plane has a weight.
 fn add_planes<const N: usize>(sums: &mut [u32], planes: [[u8; 8]; N], weights: [u32; N]) {
     // eight cells at once
     let shaded = |byte: usize| {
@@ -147,11 +147,11 @@ impl Sum {
         }
     }
 
-    /// Adds a gap's seconds to cells that are in shadow at both of its ends. What others are in it is part of these seconds,
-    /// and follows by [`Sum::add_in_gap`]; the running words have room for all of it.
+    /// Adds a gap's seconds to cells that are in shadow at both of its ends. The parts for other cells follow by
+    /// [`Sum::add_in_gap`]; the words have room for all of them.
     ///
     /// # Errors
-    /// [`ShadowError`], where the sum is on an adapter.
+    /// [`ShadowError`] if the sum is on an adapter.
     pub fn add_gap(&mut self, [before, after]: [&Bits; 2], secs: u32) -> Result<(), ShadowError> {
         if secs > MOST_SECS - self.secs {
             self.pour()?;
@@ -195,14 +195,14 @@ impl Sum {
         Ok(())
     }
 
-    /// Adds what was only counted so far.
+    /// Adds what is only counted so far.
     fn settle(&mut self) {
         if let RunningSum::Memory(sum) = &mut self.running {
             self.counted.add_to(sum);
         }
     }
 
-    /// Pours the running words over into the larger ones.
+    /// Transfers the 32-bit words to the larger ones.
     fn pour(&mut self) -> Result<(), ShadowError> {
         self.settle();
         self.poured = Some(self.larger()?);
@@ -214,7 +214,7 @@ impl Sum {
         Ok(())
     }
 
-    /// All of it in larger words.
+    /// The whole sum in larger words.
     fn larger(&self) -> Result<Vec<u64>, ShadowError> {
         let read;
         let running = match &self.running {
@@ -256,7 +256,7 @@ fn add(sum: &mut [u32], share: &[u8], weight_secs: u32) {
     });
 }
 
-/// Per byte its bits, the lowest first, each as a word of ones or of zeros.
+/// For each byte, its bits, lowest first, each as a word of ones or of zeros.
 static EACH: [[u32; 8]; 256] = {
     let mut each = [[0; 8]; 256];
     let mut byte = 0;
@@ -301,7 +301,7 @@ impl GpuSum {
         Ok(readback::texels(&self.gpu, &self.sum, TextureAspect::All)?)
     }
 
-    /// A mask in a texture.
+    /// Copies a mask to a texture.
     fn bring(&self, mask: &Mask) -> Texture {
         let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
         let texture = self.gpu.texture("accumulate.mask", (mask.width, mask.height), TextureFormat::R8Unorm, usage);

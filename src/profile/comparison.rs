@@ -1,16 +1,16 @@
-//! What a change of the site does to its shadow: two profiles of one study, compared cell by cell.
+//! How a change of the site affects its shadow: two profiles of one study, compared cell by cell.
 //!
-//! *Sun lost* is shadow that is there after the change and was not before; *sun gained* is the opposite. A cell that
-//! sees another surface after than before (a roof where there was ground) is *altered*: its hours are not compared, and
-//! it is not part of any area.
+//! *Sun lost* is shadow after the change that was not there before; *sun gained* is the opposite. A cell that sees a
+//! different surface after the change (a roof instead of the ground) is *altered*: its hours are not compared, and it
+//! is not part of any area.
 
 use super::Profile;
 use crate::view::{Grid, Surface};
 
-/// Surfaces nearer to each other than this are one, metres: below it lies what rounding makes of a slope's height.
+/// Surfaces closer to each other than this are the same, metres: rounding of a slope's height is below it.
 const ONE_SURFACE_M: f32 = 0.05;
 
-/// How the surface that a cell sees has altered.
+/// How the surface that a cell sees has changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Alteration {
     /// It is the same surface.
@@ -51,12 +51,12 @@ pub enum Change {
     SunGained,
 }
 
-/// The cell that changes most.
+/// The cell with the greatest change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GreatestChange {
     /// The first such cell, row by row from the north-west.
     pub cell: usize,
-    /// Hours by which it changes, above 0.
+    /// The change, hours, above 0.
     pub hours: f64,
     /// Its centre, metres east and north.
     pub at: [f64; 2],
@@ -66,7 +66,7 @@ impl Comparison {
     /// The comparison of two profiles of one study.
     ///
     /// # Panics
-    /// Where they do not lie on one grid with one daylight, or a raster has other cells.
+    /// If they do not have the same grid and daylight, or if `altered` has a different number of cells.
     pub fn new(before: Profile, after: Profile, altered: Vec<Alteration>) -> Comparison {
         assert_eq!((before.grid, before.day_secs), (after.grid, after.day_secs));
         assert_eq!([before.shaded.len(), after.shaded.len(), altered.len()], [before.grid.cells(); 3]);
@@ -93,7 +93,7 @@ impl Comparison {
         &self.after
     }
 
-    /// How what a cell sees has altered.
+    /// How the surface that a cell sees has changed.
     pub(crate) fn altered(&self, cell: usize) -> Alteration {
         self.altered[cell]
     }
@@ -121,7 +121,7 @@ impl Comparison {
         self.area(self.changes(change).filter(|(_, change)| *change > least).count())
     }
 
-    /// Square metres that have at least some seconds of sun, before and after.
+    /// The areas, square metres, with at least this many seconds of sun, before and after.
     pub(crate) fn sun_at_least_m2(&self, secs: u32) -> [f64; 2] {
         [&self.before, &self.after].map(|profile| {
             let most = u64::from(profile.day_secs.saturating_sub(secs)) * 255;
@@ -137,7 +137,7 @@ impl Comparison {
         sum as f64 / (255.0 * 3600.0) * self.area(1)
     }
 
-    /// The cell that changes most; `None` if none changes.
+    /// The cell with the greatest change; `None` if no cell changes.
     pub fn most(&self, change: Change) -> Option<GreatestChange> {
         let first = self.changes(change).fold(None, |most: Option<(usize, i64)>, (cell, change)| match most {
             Some((_, largest)) if largest >= change => most,
@@ -150,7 +150,7 @@ impl Comparison {
         })
     }
 
-    /// By how much the cells that are compared change that way, in 1/255 s.
+    /// The changes in that direction of the cells that are compared, in 1/255 s.
     fn changes(&self, which: Change) -> impl Iterator<Item = (usize, i64)> {
         let sign = if which == Change::SunLost { 1 } else { -1 };
         (0..self.cells()).filter_map(move |cell| Some((cell, sign * self.change(cell)?)))

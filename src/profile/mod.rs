@@ -1,4 +1,4 @@
-//! The answer on the plan: shaded time per cell, and where the raster lies on the ground.
+//! The answer on the plan: shaded time per cell, and the raster's position.
 
 #[doc(hidden)]
 pub mod accumulate;

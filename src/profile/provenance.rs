@@ -16,11 +16,11 @@ pub struct Provenance {
     /// The settings of the technique; those that it does not use are absent. Without [`Settings::sun_samples`] the sun
     /// was its centre; [`Settings::smoothie_width_m`] is present only if it was set by hand.
     pub settings: Settings,
-    /// To how many seconds the times were found at which light changes between two instants; 0 where the answer is of the
+    /// The precision of the times at which light changes between two instants, seconds; 0 if the answer uses the
     /// instants alone.
     pub resolution_secs: u32,
 }
 
-/// How long each stage took, in seconds and in the order of the work; the last one is `total`.
+/// The duration of each stage in seconds, in the order of the work; the last one is `total`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Timings(pub Vec<(&'static str, f64)>);

@@ -48,10 +48,10 @@ impl ShadedPart<'_> {
 
 /// The shaded time of all cells of a plan, which can be read in parts, so that not everything has to be in memory.
 pub trait ShadedCells: Sync {
-    /// How many cells there are.
+    /// The number of cells.
     fn cells(&self) -> usize;
 
-    /// Some of them.
+    /// The values of some cells.
     fn part(&self, cells: Range<usize>) -> ShadedPart<'_>;
 }
 
@@ -113,7 +113,7 @@ impl From<Vec<u32>> for Shaded {
 }
 
 impl From<Vec<u64>> for Shaded {
-    /// One word where that is enough for all cells, so that equal sums are equal.
+    /// Uses one word per cell if that is enough for all, so that equal sums compare equal.
     fn from(cells: Vec<u64>) -> Shaded {
         match cells.iter().map(|&cell| u32::try_from(cell)).collect::<Result<Vec<u32>, _>>() {
             Ok(cells) => cells.into(),

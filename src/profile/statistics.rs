@@ -1,8 +1,8 @@
-//! How much work counting shadow volumes took over a whole study.
+//! The work of counting shadow volumes over a whole study.
 
 use crate::view::{Decider, FragmentCounts};
 
-/// How much work counting shadow volumes took, over all cells and instants.
+/// The work of counting shadow volumes, over all cells and instants.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Statistics {
     /// The number of cells, over all instants.

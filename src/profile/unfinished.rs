@@ -9,7 +9,7 @@ pub struct Unfinished {
     pub study: u64,
     /// The number of its tiles.
     pub tiles: usize,
-    /// The number of instants that are done, added up over the tiles.
+    /// The number of finished instants, summed over the tiles.
     pub done: usize,
     /// The sum of those in the last tile.
     pub shaded: Shaded,

@@ -1,7 +1,7 @@
-//! Batches: casters that are counted together, so few above each other that the stencil can hold their count.
+//! Batches: casters that are counted together, few enough above each other that the stencil can hold their count.
 //!
-//! The stencil has 8 bits (7 beside a computation mask), and a count of exactly 256 (128) would read as light. Casters
-//! are split in halves until a bound shows that no count of a half can reach that ([`layers_bound`]). Each batch keeps
+//! The stencil has 8 bits (7 besides a computation mask), and a count of exactly 256 (128) would read as light. Casters
+//! are halved until an upper bound shows that no count of a half can reach that ([`layers_bound`]). Each batch keeps
 //! its bound, so that as many batches as fit are counted together before the mask is drawn from the count.
 
 use super::walls::{WallMaker, WallQuery, Walls};
@@ -10,13 +10,13 @@ use crate::mesh::Mesh;
 use crate::volume::layers_bound;
 use wgpu::CommandEncoder;
 
-/// Walls, and the most that they count.
+/// Walls, and an upper bound of their count.
 pub(super) type CountedWalls<'a> = (&'a dyn Walls, u32);
 
-/// Casters, their walls, and their halves where they are too many. Walls and halves are made when first needed.
+/// Casters, their walls, and their halves if they are too many. Walls and halves are made when they are first needed.
 pub(super) struct Batch {
     mesh: Mesh,
-    /// Every shell is even, so that every multiplicity is even.
+    /// Whether every shell is even, so that every multiplicity is.
     even: bool,
     walls: Option<Box<dyn Walls>>,
     halves: Option<Vec<Batch>>,
@@ -37,11 +37,11 @@ impl Batch {
         Batch { mesh, even, walls: None, halves: None }
     }
 
-    /// Appends walls that together are those of these casters, none of which count beyond `most_counted`.
+    /// Appends walls that together are those of these casters, each with a count of at most `most_counted`.
     ///
-    /// Without caps, walls of even shells stand half as often. There, every wall that a view ray crosses on its way
-    /// to what it sees stands an even number of times, for the ray crosses no cap; so half the count is as whole a
-    /// number, and 0 where the count is. That is so for any winding, and saves half of the walls.
+    /// Without caps, walls of even shells are drawn half as often. A view ray crosses no cap before the point that it
+    /// sees, so it crosses the walls an even number of times; half the count is an integer, too, and 0 exactly if the
+    /// count is. That holds for any winding, and saves half of the walls.
     pub(super) fn find<'a>(
         &'a mut self,
         maker: &WallMaker,
@@ -55,7 +55,7 @@ impl Batch {
         let most = most_counted << u32::from(halved);
         let bound = if faces > most { layers_bound(&self.mesh, sought.local_light.truncate()) } else { faces };
         if bound > most {
-            // the cut leaves the shells that it goes through odd, and no others
+            // the cut makes only those shells odd that it passes through
             let halves = self.halves.get_or_insert_with(|| {
                 let half = |low: bool| self.mesh.of_faces(|face| (face < faces / 2) == low);
                 [true, false].iter().flat_map(|&low| Batch::of(&half(low))).collect()

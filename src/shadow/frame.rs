@@ -1,11 +1,11 @@
-//! The transform of a view, in the form that shaders read.
+//! A view's transform as shaders read it.
 
 use super::{JUDGED_ABOVE_M, Scene};
 use crate::gpu::layout;
 use crate::view::{Camera, Elevation, View};
 use glam::{DMat4, DVec3, DVec4};
 
-/// Metres around the scene's origin → clip space, depth 1 near and 0 far.
+/// The transform from metres around the scene's origin to clip space, with depth 1 near and 0 far.
 pub(super) fn clip_from_local(scene: &Scene, view: &View) -> DMat4 {
     let to_world = DMat4::from_translation(scene.casters.origin);
     match view {
@@ -33,14 +33,14 @@ pub(super) fn clip_from_local(scene: &Scene, view: &View) -> DMat4 {
     }
 }
 
-/// The heights between which the plan's depth runs, metres of the world frame: nothing is cut at the upper end, so that
-/// counting in front of what is seen is right; what is cut at the lower end lies below the ground.
+/// The range of heights of the plan's depth, metres of the world frame. Nothing is cut at the upper end, so counting in
+/// front of what is seen is right; what is cut at the lower end is below the ground.
 fn heights(scene: &Scene) -> (f64, f64) {
     let high = scene.casters.top().max(scene.receivers.top()).max(scene.ground);
     (scene.ground - 1.0, high + 1.0)
 }
 
-/// The depths between which a side's depth runs, metres towards the viewer.
+/// The range of depths of a side, metres towards the viewer.
 fn depths(scene: &Scene, side: &Elevation) -> (f64, f64) {
     let (low, high) = scene.receivers.bounds().unwrap_or_default();
     let towards = side.to_viewer;
@@ -56,7 +56,7 @@ pub(super) fn uniform(scene: &Scene, view: &View) -> layout::ViewUniforms {
     let (width, height) = view.size();
     let lowest_receiver = scene.receivers.bounds().map_or(scene.ground, |(low, _)| low.z.min(scene.ground));
     let ([right, up, forward], lowest, depth_scale) = match view {
-        // the plan sees nothing below the ground, nor any underside
+        // the plan sees nothing below the ground, and no undersides
         View::Plan(_) => {
             let (low, high) = heights(scene);
             ([DVec3::X, DVec3::Y, DVec3::NEG_Z], scene.ground + JUDGED_ABOVE_M, 1.0 / (high - low))

@@ -1,4 +1,4 @@
-//! The hybrid of map and volumes: exact hard shadows, counted only where the map cannot decide.
+//! The hybrid of shadow map and volumes: exact hard shadows, counted only where the map cannot decide.
 //!
 //! E. Chan, *Efficient Shadow Algorithms on Graphics Hardware*, 2004, chapter 3. A map is drawn from the sun. A cell
 //! whose four nearest texels agree takes their answer; the others, along the shadows' edges, are counted. The
@@ -6,11 +6,11 @@
 //! depth-bounds test, and early stencil tests reject whole tiles as well). The count keeps the low seven bits, so
 //! batches stay at 127 or below.
 //!
-//! Deviations: the view's own z-pass or z-fail instead of z-fail alone; the comparison by the cell's own plane, so that
-//! no bias lets light through between a shadow and its caster; cells whose plane is almost edge-on to the sun are
+//! Deviations: the view's own z-pass or z-fail instead of z-fail alone; the comparison uses the cell's own plane, so
+//! that no bias lets light through between a shadow and its caster; cells whose plane is almost edge-on to the sun are
 //! always counted.
 //!
-//! It is wrong where a caster, or a gap, is so thin that all four texels around it miss it.
+//! It is wrong where a caster, or a gap, is so thin that all four texels around a cell miss it.
 
 use super::counting::{StencilBits, VolumeCounter};
 use super::light_view::Smoothies;
@@ -32,7 +32,7 @@ pub struct Hybrid {
     mask: Texture,
 }
 
-/// Every cell counts until the map decides it.
+/// At first every cell counts.
 const ALL_COUNT: LoadOp<u32> = LoadOp::Clear(StencilBits::MASK);
 
 impl Hybrid {
@@ -70,13 +70,13 @@ impl Hybrid {
         Ok(Hybrid { counting, map, compared, decided, mask })
     }
 
-    /// As for the stencil: takes z-fail (`true`) or z-pass (`false`), whether it is right or not.
+    /// As for the stencil: uses z-fail (`true`) or z-pass (`false`), right or wrong.
     #[cfg(feature = "test-hooks")]
     pub fn force_z_fail(&mut self, z_fail: bool) {
         self.counting.force_z_fail(z_fail);
     }
 
-    /// Draws the mask; the stencil's mask is kept where `store` says so, and nothing is counted unless `count` does.
+    /// Draws the mask. `store` says whether the stencil's mask is kept; volumes are counted only with `count`.
     fn draw_into(
         &mut self,
         to_sun: DVec3,
@@ -126,7 +126,7 @@ impl Technique for Hybrid {
         self.counting.prepare_adding()?;
         let gpu = Arc::clone(&self.counting.surface.gpu);
         let share = self.draw(to_sun)?.read()?.share;
-        // the mask alone is drawn again and kept, and what passes it is added up
+        // draws only the mask again and keeps it, then adds up the fragments that pass it
         let unused = self.counting.surface.mask("hybrid.unused");
         let mut encoder = self.draw_into(to_sun, &unused, StoreOp::Store, false)?;
         let reached = self.counting.find(to_sun, &mut encoder)?.fragments(encoder, None)?;

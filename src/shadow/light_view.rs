@@ -1,10 +1,10 @@
-//! A light's view of a scene. The sun's view is parallel, and no larger than what can be in shadow.
+//! A light's view of a scene. The sun's view is parallel, and no larger than the area that can be in shadow.
 //!
-//! Only what a view sees is judged, and only what lies behind casters, seen from the sun, can be in shadow. So the map
-//! covers the overlap of two rectangles, one around what is seen and one around the casters, turned about the sun's
-//! rays to where the overlap is smallest. A caster outside of the view that shades something in it lies in that
-//! rectangle, however far away it is; along the rays the map reaches over all casters. A lamp's view is in perspective;
-//! it is for smoothies, whose paper has lamps.
+//! Only what a view sees is judged, and only what is behind casters as seen from the sun can be in shadow. So the map
+//! covers the intersection of two rectangles, around what is seen and around the casters, rotated about the sun's rays
+//! to the smallest intersection. A caster outside of the view that shades something in it is within that rectangle,
+//! however far away it is; along the rays the map extends over all casters. A lamp's view is in perspective; it is for
+//! smoothies, whose paper has lamps.
 
 use super::{GpuSurface, Scene, ShadowError};
 use crate::gpu::layout;
@@ -12,28 +12,28 @@ use crate::sun::SUN_DISC_RAD;
 use glam::{DMat4, DVec2, DVec3, DVec4};
 use std::f64::consts::FRAC_PI_2;
 
-/// How wide the sun's penumbra is a metre behind the edge that casts it, metres across the rays: 2·tan(θ/2).
+/// The width of the sun's penumbra one metre behind the edge that casts it, metres across the rays: 2·tan(θ/2).
 fn spread() -> f64 {
     2.0 * (SUN_DISC_RAD / 2.0).tan()
 }
 
-/// Cells a side of the grid that groups the casters' corners.
+/// The cells along a side of the grid that groups the casters' corners.
 const GROUPS: f64 = 8.0;
-/// Angles that are tried for the rectangle, over a right angle.
+/// The number of angles tried for the rectangle, over 90°.
 const TURNS: u32 = 30;
-/// Texels between what is needed and the map's border: filters reach over two.
+/// The texels between the contents and the map's border: filters reach over two.
 const BORDER_TEXELS: f64 = 3.0;
 
-/// What the map must hold, as points around the scene's origin whose hull does.
+/// The contents of the map, as points around the scene's origin whose convex hull contains them.
 pub(super) struct Extents {
     casters: Vec<DVec3>,
     seen: Vec<DVec3>,
-    /// Receivers that may lie beyond all casters.
+    /// Receivers that may be beyond all casters.
     receivers: Vec<DVec3>,
     ground_z: f64,
-    /// Above the scene's origin, metres.
+    /// The highest point of the casters, metres above the scene's origin.
     casters_top: f64,
-    /// From the highest caster to the lowest point that is judged, metres.
+    /// The height from the lowest judged point to the highest caster, metres.
     fall: f64,
 }
 
@@ -56,7 +56,7 @@ impl Extents {
         Ok(extents)
     }
 
-    /// Takes what another view of the same scene sees.
+    /// Uses what another view of the same scene sees.
     pub(super) fn turn_to(&mut self, surface: &GpuSurface) -> Result<(), ShadowError> {
         self.seen = corners_of(surface.boxes_of_seen()?);
         self.fall = (self.casters_top - surface.lowest_z).max(0.0);
@@ -104,13 +104,14 @@ impl Extents {
         let turns = (0..TURNS).map(|turn| DVec2::from_angle(FRAC_PI_2 * f64::from(turn) / f64::from(TURNS)));
         let smallest = turns.map(rectangle).min_by(|one, other| area(one).total_cmp(&area(other)));
         let Some((turn, low, high)) = smallest else { return nothing };
-        // where nothing overlaps, nothing is in shadow, and any rectangle will do
+        // without an intersection nothing is in shadow, and any rectangle will do
         let high = high.max(low + 0.01);
         let (right, up) = (right * turn.x + up * turn.y, up * turn.x - right * turn.y);
         LightView { right, up, low, high, near, far, farthest, ..nothing }
     }
 
-    /// A lamp's view of what is seen, towards its middle: as far aside as [`LAMP_SEES`], and not behind the lamp.
+    /// A lamp's view towards the middle of what is seen, limited to [`LAMP_SEES`] on each side and to the front of the
+    /// lamp.
     pub(super) fn before_lamp(&self, lamp: DVec3) -> LightView {
         let middle =
             self.seen.iter().chain(&self.casters).sum::<DVec3>() / (self.seen.len() + self.casters.len()).max(1) as f64;
@@ -119,7 +120,7 @@ impl Extents {
         let depths = self.casters.iter().chain(&self.receivers).chain(&self.seen).map(|point| (point - lamp).dot(away));
         let far = ends(depths).1.max(1.0) * 1.001;
         let before = |points: &[DVec3]| {
-            // a box that reaches behind the lamp is seen from border to border
+            // a box that extends behind the lamp fills the view
             let is_behind = points.iter().any(|point| (point - lamp).dot(away) < LAMP_NEAR_M);
             let at = |point: &DVec3| {
                 DVec2::new((point - lamp).dot(right), (point - lamp).dot(up)) / (point - lamp).dot(away)
@@ -143,12 +144,12 @@ impl Extents {
     }
 }
 
-/// How far aside a lamp's map reaches a metre before it, metres: 63° to each side.
+/// The tangent of the greatest angle from a lamp's axis in its map: 63° on each side.
 const LAMP_SEES: f64 = 2.0;
-/// What lies nearer before a lamp is not in its map, metres.
+/// The near distance of a lamp's map, metres.
 const LAMP_NEAR_M: f64 = 0.05;
 
-/// Right and up of a view in a direction: right × up points to the viewer.
+/// The right and up axes of a view in a direction: right × up points to the viewer.
 fn axes(away: DVec3) -> (DVec3, DVec3) {
     let (right, up) = away.any_orthonormal_pair();
     if right.cross(up).dot(away) > 0.0 { (right, -up) } else { (right, up) }
@@ -162,7 +163,7 @@ fn bounds(points: impl Iterator<Item = DVec2>) -> (DVec2, DVec2) {
     points.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)))
 }
 
-/// Boxes around groups of points that lie near to each other.
+/// Boxes around groups of nearby points.
 fn grouped(points: impl Iterator<Item = DVec3>, low: DVec3, high: DVec3) -> Vec<(DVec3, DVec3)> {
     let scale = (GROUPS - 1e-6) / (high - low).max(DVec3::splat(1e-9));
     let side = GROUPS as usize;
@@ -205,37 +206,37 @@ fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     hull
 }
 
-/// The request for smoothies.
+/// The settings of smoothies.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Smoothies {
-    /// Metres; 0 where the sun's disc decides.
+    /// Their width, metres; 0 for the width of the sun's penumbra.
     pub(super) width_m: f64,
-    /// Their alpha is not remapped.
+    /// Whether their alpha is used without remapping.
     pub(super) linear: bool,
 }
 
-/// A light's view, around the scene's origin: parallel along the sun's rays, or in perspective before a lamp.
+/// A light's view, around the scene's origin: parallel along the sun's rays, or a lamp's in perspective.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct LightView {
     /// Sun: w = 0; lamp: w = 1.
     light: DVec4,
-    /// The direction in which depth is measured.
+    /// The direction of depth.
     away: DVec3,
     /// The map's axes: right × up points to the light.
     right: DVec3,
     up: DVec3,
-    /// The rectangle on these axes, metres; a lamp's a metre before it.
+    /// The rectangle on these axes, metres; for a lamp at a distance of one metre.
     low: DVec2,
     high: DVec2,
-    /// From where to where depth reaches, metres: along the rays from the scene's origin, or from the lamp.
+    /// The range of depth, metres: along the rays from the scene's origin, or from the lamp.
     near: f64,
     far: f64,
-    /// As `far`, of what is seen.
+    /// The greatest depth of what is seen.
     farthest: f64,
 }
 
 impl LightView {
-    /// The uniform for a map of `size` texels a side.
+    /// The uniform for a map with `size` texels per side.
     pub(super) fn uniform(
         &self,
         extents: &Extents,
@@ -248,7 +249,7 @@ impl LightView {
         let (low, high) = (self.low - border, self.high + border);
         let texel = (high - low) / f64::from(size);
         let lamp = light.truncate() * light.w;
-        // what a lamp sees grows with the depth, what the sun sees does not
+        // a lamp's extent grows with depth, the sun's does not
         let row =
             |axis: DVec3, offset: f64| (axis + away * offset * light.w).extend(offset * (1.0 - light.w)).to_array();
         let depth = away.extend(-near * (1.0 - light.w));
@@ -284,13 +285,13 @@ impl LightView {
         }
     }
 
-    /// How deep the ground lies where a ray through the map meets it: a sum over column and row, or what is to be divided by
-    /// that sum.
+    /// The depth of the ground along a ray through the map, as a linear function of column and row, or its
+    /// reciprocal's.
     fn ground(&self, ground_z: f64, low: DVec2, high: DVec2, texel: DVec2) -> [f64; 4] {
         let &LightView { light, away, right, up, near, .. } = self;
         let sum = [right.z * texel.x, -up.z * texel.y, right.z * low.x + up.z * high.y];
         if light.w > 0.0 {
-            // a ray that is a metre deep sinks by the sum
+            // a ray of one metre depth descends by the sum
             return [sum[0], sum[1], sum[2] + away.z, ground_z - light.z];
         }
         let rise = light.z.max(1e-4);
@@ -298,5 +299,5 @@ impl LightView {
     }
 }
 
-/// How much nearer to the sun than a cell a texel must be to shade it, metres along the rays; and rounding beside it.
+/// How much nearer to the sun than a cell a texel must be to shade it, metres along the rays, besides rounding.
 const BIAS_M: f64 = 0.0002;

@@ -1,12 +1,12 @@
-//! The map: depth as the sun sees it, for [`super::shadow_map`], [`super::hybrid`] and [`super::smoothie`].
+//! The shadow map: depth as the sun sees it, for [`super::shadow_map`], [`super::hybrid`] and [`super::smoothie`].
 //!
 //! L. Williams, *Casting Curved Shadows on Curved Surfaces*, 1978. The light is parallel, so depth is linear: metres
 //! along the rays.
 //!
-//! A texel shades a cell only if it lies nearer to the light than the cell, and nearer than the cell's own plane at the
-//! texel's sample (the view knows the plane). So no plane shades itself, and no lit wall shades the ground at its foot.
-//! The slope-scaled bias (Akenine-Möller, Haines and Hoffman, *Real-Time Rendering*, 3rd edition, 2008, section 9.1) is
-//! left with curved surfaces alone, and half a texel of it is enough for all filters.
+//! A texel shades a cell only if it is nearer to the light than the cell, and nearer than the cell's own plane at the
+//! texel's sample (the view provides the plane). So no plane shades itself, and no lit wall shades the ground at its
+//! foot. The slope-scaled bias (Akenine-Möller, Haines and Hoffman, *Real-Time Rendering*, 3rd edition, 2008, section
+//! 9.1) remains only for curved surfaces, and half a texel of it is enough for all filters.
 
 use super::bindings::{UNIFORM, bind_group_layout, texture_binding};
 use super::light_view::{Extents, Smoothies};
@@ -18,24 +18,24 @@ use glam::DVec4;
 use std::sync::Arc;
 use wgpu::*;
 
-/// How many texels of its slope deeper a face is drawn. Measured: of 0 to 4, the one that leaves the fewest wrong cells
+/// The slope-scaled bias, in texels. Measured: among 0 to 4, the value with the fewest wrong cells
 /// (docs/benchmarks/techniques.md).
 pub(super) const SLOPE_BIAS_TEXELS: f32 = 0.5;
 
-/// Four depths to a texel.
+/// Four depths per texel.
 const PACKED: TextureFormat = TextureFormat::Rgba32Float;
 
-/// The shift of `shaders/map.wgsl` that is none.
+/// The value of `shift` in `shaders/map.wgsl` for no shift.
 const UNSHIFTED: u32 = 4;
 
-/// The map of one scene's casters. It is aimed at each sun in turn.
+/// The shadow map of one scene's casters, which is aimed at each sun in turn.
 pub(super) struct DepthMap {
     gpu: Arc<Gpu>,
     size: u32,
     slope_bias: f32,
     extents: Extents,
     uniform: Buffer,
-    /// The uniform alone, group 2.
+    /// The bind group with the uniform alone, group 2.
     pub(super) bound: BindGroup,
     pub(super) layout: BindGroupLayout,
     pub(super) depth: Texture,
@@ -44,8 +44,7 @@ pub(super) struct DepthMap {
 }
 
 impl DepthMap {
-    /// Uploads the casters and makes an empty map of `size` texels a side, in which a face is drawn deeper by so many texels of
-    /// its slope.
+    /// Uploads the casters and makes an empty map with `size` texels per side and a slope-scaled bias in texels.
     pub(super) fn new(
         scene: &Scene,
         surface: &GpuSurface,
@@ -85,23 +84,23 @@ impl DepthMap {
         })
     }
 
-    /// Texels a side.
+    /// The texels per side.
     pub(super) fn size(&self) -> (u32, u32) {
         (self.size, self.size)
     }
 
-    /// How large a texel is across the rays of that sun, metres along the map's axes.
+    /// The size of a texel across the sun's rays, metres along the map's axes.
     #[cfg(feature = "test-hooks")]
     pub(super) fn texel_m(&self, to_sun: glam::DVec3) -> [f32; 2] {
         self.extents.along_sun(to_sun).uniform(&self.extents, self.size, 0.0, Smoothies::default()).texel
     }
 
-    /// Turns to what another view sees.
+    /// Adapts to what another view sees.
     pub(super) fn turn_to(&mut self, surface: &GpuSurface) -> Result<(), ShadowError> {
         self.extents.turn_to(surface)
     }
 
-    /// Turns to a light around the scene's origin (sun: w = 0, lamp: w = 1).
+    /// Aims at a light relative to the scene's origin (sun: w = 0, lamp: w = 1).
     pub(super) fn aim(&self, local_light: DVec4, smoothies: Smoothies) {
         let view = match local_light.w > 0.0 {
             false => self.extents.along_sun(local_light.truncate()),
@@ -116,7 +115,7 @@ impl DepthMap {
         self.draw_triangles(surface, encoder, &self.depth, &self.casters);
     }
 
-    /// Draws the depth of some triangles into a map of the same view.
+    /// Draws the depth of other triangles into a map of the same view.
     pub(super) fn draw_triangles(
         &self,
         surface: &GpuSurface,
@@ -143,11 +142,10 @@ impl DepthMap {
     }
 }
 
-/// Four maps, a quarter of a texel from its centre each, in the channels of one (Brabec and Seidel,
-/// section 3).
+/// Four maps, each shifted by a quarter of a texel, in the channels of one (Brabec and Seidel, section 3).
 pub(super) struct PackedMap {
     pub(super) packed: Texture,
-    /// One pipeline a channel.
+    /// A pipeline for each channel.
     pipelines: [RenderPipeline; 4],
 }
 
@@ -195,12 +193,12 @@ impl PackedMap {
     }
 }
 
-/// An empty map's depth.
+/// The depth texture of an empty map.
 pub(super) fn depth(gpu: &Gpu, label: &str, size: u32) -> Texture {
     gpu.texture(label, (size, size), DEPTH, TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING)
 }
 
-/// A map's depth for shaders that compare with it: group 3, binding 0.
+/// The binding of a map's depth for shaders that compare with it: group 3, binding 0.
 pub(super) const COMPARED: BindingType = BindingType::Texture {
     sample_type: TextureSampleType::Depth,
     view_dimension: TextureViewDimension::D2,
@@ -245,7 +243,7 @@ impl Triangles {
         attributes: &vertex_attr_array![0 => Float32x3],
     };
 
-    /// Uploads the faces of a mesh that are to be kept.
+    /// Uploads the selected faces of a mesh.
     pub(super) fn uploaded(gpu: &Gpu, mesh: &Mesh, keep: impl Fn(&[u32; 3]) -> bool) -> Result<Triangles, ShadowError> {
         let faces: Vec<[u32; 3]> = mesh.faces.iter().copied().filter(keep).collect();
         let vertices = gpu.uploaded("map.vertices", BufferUsages::VERTEX, &mesh.vertices[..])?;

@@ -1,7 +1,7 @@
-//! The techniques. For one direction of the sun each of them draws one mask, and all masks are of the same kind.
+//! The techniques. Each draws one mask for one direction of the sun, and all masks are of the same kind.
 //!
-//! Accumulation, drawings and tests never ask who drew a mask. One technique is one file, with one shader of the same
-//! name where it draws on the GPU.
+//! Accumulation, drawings and tests do not depend on what drew a mask. A technique is one file, with a shader of the
+//! same name if it draws on the GPU.
 
 mod batch;
 pub(crate) mod bindings;
@@ -53,7 +53,7 @@ pub use walls::Silhouettes;
 /// within it does not shade the receiver, so that a slab in the ground plane leaves the ground lit.
 pub const JUDGED_ABOVE_M: f64 = 0.001;
 
-/// The casters and receivers, around one origin.
+/// The casters and receivers, relative to one origin.
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// The faces that cast.
@@ -68,7 +68,7 @@ pub struct Scene {
 pub enum DrawnMask<'a> {
     /// A mask in the processor's memory.
     Memory(&'a Mask),
-    /// The same as one bit per cell, for a point-like sun.
+    /// The same as one bit per cell, for the sun as a point.
     Bits(&'a Bits),
     /// An R8Unorm texture: the share of the sun that is seen.
     Texture(&'a Gpu, &'a wgpu::Texture),
@@ -98,18 +98,18 @@ impl DrawnMask<'_> {
     }
 }
 
-/// Cells that a technique asks singly between two instants.
+/// The cells that a technique tests singly between two instants.
 #[doc(hidden)]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SingleCells {
     /// All of them.
     All,
-    /// Those whose bits are set.
+    /// The cells whose bits are set.
     Some(Arc<Bits>),
 }
 
 impl SingleCells {
-    /// What these have of a shadow.
+    /// These cells' bits of a shadow.
     pub(crate) fn of(&self, shadow: &Bits) -> Bits {
         match self {
             SingleCells::All => shadow.clone(),
@@ -120,15 +120,16 @@ impl SingleCells {
 
 /// A way to find shadows, made for one scene and one view at a time.
 pub trait Technique {
-    /// Draws the mask for the unit vector to the sun, which is above the horizon.
+    /// Draws the mask for a unit vector to the sun, which is above the horizon.
     fn draw(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError>;
 
-    /// The cells that are asked singly between two instants, since drawing them whole costs more; none where all are drawn.
+    /// The cells that are tested singly between two instants because drawing them whole costs more; `None` if all are
+    /// drawn.
     fn single_cells(&self) -> Option<SingleCells> {
         None
     }
 
-    /// As [`Technique::draw`], without those cells that are asked singly: they are not in shadow.
+    /// As [`Technique::draw`], but cells that are tested singly are left out, as if lit.
     ///
     /// # Errors
     /// As [`Technique::draw`].
@@ -136,8 +137,8 @@ pub trait Technique {
         self.draw(to_sun)
     }
 
-    /// Which of some cells are in shadow, of those that are asked singly: bits of the words that are asked, of which others
-    /// than the asked ones mean nothing.
+    /// Which of some cells that are tested singly are in shadow, as bits of the words in `asked`. Other bits of these
+    /// words are undefined.
     ///
     /// # Errors
     /// As [`Technique::draw`].
@@ -150,13 +151,13 @@ pub trait Technique {
     /// technique has to be rebuilt instead.
     ///
     /// # Errors
-    /// [`ShadowError`], where the view does not fit the adapter.
+    /// [`ShadowError`] if the view does not fit on the adapter.
     fn turn_to(&mut self, _view: View) -> Result<bool, ShadowError> {
         Ok(false)
     }
 
-    /// Turns to a tile of the plan that it was made for. Each cell keeps the place that it has on the whole plan. Returns
-    /// `false` if the technique has to be rebuilt instead.
+    /// Turns to a tile of the plan that it was made for. Each cell keeps its place on the whole plan. Returns `false`
+    /// if the technique has to be rebuilt instead.
     ///
     /// On the processor a tile's cells are those of the whole plan to the bit. A graphics adapter rounds corners to 1/256 of
     /// a cell for each tile separately, and draws maps for what the tile sees.
@@ -170,12 +171,13 @@ pub trait Technique {
     /// What the cells see of the receivers.
     fn surface(&self) -> Result<Surface, ShadowError>;
 
-    /// Where the technique did not apply to the last mask, and what was done there; `None` if it applied everywhere.
+    /// A note if the technique did not apply to parts of the last mask, and what was done there; otherwise `None`.
     fn note(&self) -> Option<String> {
         None
     }
 
-    /// How much work counting takes for that sun; `None` for a technique that does not count. Slow, as it is read back.
+    /// Measures the cost of counting for a sun; `None` for a technique that does not count. Slow, as the result is read
+    /// back.
     fn counted(&mut self, _to_sun: DVec3) -> Result<Option<FragmentCounts>, ShadowError> {
         Ok(None)
     }
@@ -184,7 +186,7 @@ pub trait Technique {
 /// Why a mask could not be drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum ShadowError {
-    /// The raster does not fit the adapter.
+    /// The raster is too large for the adapter.
     TooLarge {
         /// Columns of the raster.
         width: u32,
@@ -195,7 +197,7 @@ pub enum ShadowError {
         /// The adapter's name.
         adapter: String,
     },
-    /// The map does not fit the adapter.
+    /// The map is too large for the adapter.
     MapTooLarge {
         /// Texels along the map's side.
         size: u32,
@@ -220,17 +222,18 @@ impl Worded for ShadowError {
                 Piece::Where(Field::Size, pieces![" or fewer", aside(Field::Size)])
             ],
             ShadowError::MapTooLarge { size, largest, adapter } => message![
-                format!("a shadow map of {size} texels a side is larger than the {largest} that '{adapter}' draws");
-                "take a smaller ", Field::MapSize
+                format!("a shadow map of {size} texels per side is larger than the {largest} that '{adapter}' draws");
+                "choose a smaller ", Field::MapSize
             ],
             ShadowError::Gpu(error) => error.message(),
         }
     }
 }
 
-/// The unit normal of the visible side; zero if a face has no area. `plane` and `viewer` are around one origin.
+/// Returns the unit normal of the visible side; zero if a face has no area. `plane` and `viewer` are relative to one
+/// origin.
 ///
-/// A surface whose seen side faces away from the sun, or is edge-on to it, is in shadow, whatever its winding.
+/// A surface whose visible side faces away from the sun, or is edge-on to it, is in shadow, whatever its winding.
 #[doc(hidden)]
 pub fn seen_normal(plane: DVec4, viewer: DVec4) -> DVec3 {
     if plane.dot(viewer) < 0.0 { -plane.truncate() } else { plane.truncate() }

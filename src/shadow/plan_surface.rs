@@ -1,8 +1,8 @@
-//! What each cell of a plan sees first, on the processor: every face is scan-converted, and the highest one stays. Faces
+//! Finds what each cell of a plan sees first, on the processor: scan-converts every face, and keeps the highest. Faces
 //! that are flush with the ground are shown by their own rule (`flush.rs`).
 //!
-//! The result is that of one ray per cell straight down, in double precision like that, but many times faster, since
-//! each face is visited once and not each cell. `RayCast::surface` is its slow plain twin.
+//! The result is that of one ray straight down per cell, in the same double precision, but many times faster, since
+//! each face is visited once and not each cell. `RayCast::surface` is its slow twin.
 
 use super::flush::flush_faces;
 use super::ray_cast::TIE;
@@ -12,10 +12,10 @@ use glam::{DVec2, DVec3, Vec3Swizzles};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Rows of a band, which one task draws.
+/// The rows of a band, which is one task.
 const BAND: usize = 32;
 
-/// The highest face of some receivers below each cell's centre, or the ground, if that is higher; what is flush with the ground is seen before it.
+/// Returns for each cell the highest face of some receivers at its centre, or the ground if that is higher; what is flush with the ground is seen before it.
 pub fn plan_surface(receivers: &Mesh, ground: f64, grid: &Grid) -> Surface {
     tile_surface(receivers, ground, (*grid).into())
 }
@@ -33,13 +33,13 @@ pub(super) fn highest(receivers: &Mesh, ground: f64, tile: Tile) -> (Vec<u32>, V
     PlanSurface::of_tile(receivers, ground, tile, Vec::new()).all(|height| height)
 }
 
-/// What a plan's cells see, some rows at a time.
+/// What a plan's cells see, a few rows at a time.
 pub struct PlanSurface<'a> {
     receivers: &'a Mesh,
     ground: f64,
     tile: Tile,
     corners: Corners,
-    /// Which faces reach into which band; a list for each run of faces, so that their order stays.
+    /// The faces that reach into each band; a list for each task, so that their order is kept.
     bands: Vec<Vec<Vec<u32>>>,
     /// The faces that are shown before the ground, in their order.
     flush: Vec<u32>,
@@ -73,7 +73,7 @@ impl<'a> PlanSurface<'a> {
         (face, kept)
     }
 
-    /// Per cell of some of the plan's rows the face that it sees, where `face` is the ground's so far, and how high that is.
+    /// Finds for each cell of some rows the face that it sees and its height. At first, `face` must be the ground's.
     fn seen(&self, rows: Range<usize>, face: &mut [u32], heights: &mut Vec<f64>) {
         heights.clear();
         heights.resize(face.len(), self.ground);
@@ -131,7 +131,7 @@ impl SurfaceRows for PlanSurface<'_> {
     }
 }
 
-/// Where vertices stand on a plan: column, row, height in the world. Centres of cells are whole numbers.
+/// The vertices on a plan: column, row, and height in the world. Centres of cells are whole numbers.
 struct Corners(Vec<DVec3>);
 
 impl Corners {
@@ -150,7 +150,7 @@ impl Corners {
         Triangle::new(face.map(|vertex| self.0[vertex as usize]))
     }
 
-    /// Which faces reach into which band; a list for each run of faces, so that their order stays.
+    /// The faces that reach into each band; a list for each task, so that their order is kept.
     fn by_band(&self, mesh: &Mesh, of: Range<usize>) -> Vec<Vec<Vec<u32>>> {
         let run = mesh.faces.len().div_ceil(4 * rayon::current_num_threads()).max(1);
         let runs = mesh.faces.par_chunks(run).enumerate().map(|(index, faces)| {
@@ -158,7 +158,7 @@ impl Corners {
             for (at, face) in faces.iter().enumerate() {
                 let triangle = self.of(*face);
                 let rows = triangle.rows(of.clone());
-                // seen from its edge, as most walls are, it is nothing
+                // edge-on faces, such as most walls, cover nothing
                 if !rows.is_empty() && triangle.normal().z != 0.0 {
                     let bands = &mut bands[rows.start / BAND..=(rows.end - 1) / BAND];
                     bands.iter_mut().for_each(|band| band.push((index * run + at) as u32));
@@ -170,9 +170,9 @@ impl Corners {
     }
 }
 
-/// A triangle over a raster: columns, rows and any number that is linear over it.
+/// A triangle over a raster: columns, rows, and a value that is linear over it.
 struct Triangle {
-    /// From the upper to the lower corner.
+    /// Sorted from the upper to the lower corner.
     corners: [DVec3; 3],
 }
 
@@ -182,19 +182,19 @@ impl Triangle {
         Triangle { corners }
     }
 
-    /// Upright to it, of any length.
+    /// Its normal, of any length.
     fn normal(&self) -> DVec3 {
         let [top, middle, bottom] = self.corners;
         (middle - top).cross(bottom - top)
     }
 
-    /// The rows whose centres it reaches, of some.
+    /// The rows, among some, whose centres it reaches.
     fn rows(&self, of: Range<usize>) -> Range<usize> {
         let [top, _, bottom] = self.corners;
         scan::wholes([top.y, bottom.y], of)
     }
 
-    /// Tells row, column and height of each of some centres that lies within it or on its edge.
+    /// Calls `tell` with row, column and height of each of some centres in the triangle or on its edge.
     fn scan(&self, columns: Range<usize>, rows: Range<usize>, mut tell: impl FnMut(usize, usize, f64)) {
         let [top, middle, bottom] = self.corners;
         let normal = self.normal();

@@ -1,11 +1,11 @@
-//! Ray casting on the processor, in double precision: the truth with which other techniques are compared, and the
-//! engine where there is no GPU.
+//! Ray casting on the processor, in double precision: the truth that other techniques are compared with, and the engine
+//! on machines without a GPU.
 //!
-//! Intersection after Woop, Benthin and Wald, *Watertight Ray/Triangle Intersection* (JCGT 2013): the triangle is sheared so
-//! that the ray is an axis, and the signs of three areas decide; a ray through a shared edge or corner computes the same areas
-//! for both faces and hits at least one. Areas of exactly 0 count as hits. The tree and its SIMD ([`super::rays`]) only rule
-//! out: boxes are padded beyond all rounding, and a triangle is only left out where no rounding could make it a hit. Cells of
-//! eight rows and columns are asked at once, as a beam of parallel rays.
+//! Intersection after Woop, Benthin and Wald, *Watertight Ray/Triangle Intersection* (JCGT 2013): the triangle is
+//! sheared so that the ray is an axis, and the signs of three areas decide. A ray through a shared edge or corner
+//! computes the same areas for both faces and hits at least one. Areas of exactly 0 count as hits. The tree and its
+//! SIMD ([`super::rays`]) only exclude: boxes are padded beyond all rounding, and a triangle is skipped only if no
+//! rounding could make it a hit. Squares of eight by eight cells are traced at once, as a beam of parallel rays.
 
 use super::flush::FlushFaces;
 use super::{DrawnMask, JUDGED_ABOVE_M, Scene, ShadowError, SingleCells, Technique, seen_normal};
@@ -20,9 +20,9 @@ use std::sync::Arc;
 #[doc(hidden)]
 pub use super::rays::{RayCaster, Shear};
 
-/// Cells are asked in squares of so many a side: as many rays as a beam has.
+/// The side of the squares of cells that are traced together: as many rays as a beam has.
 const SIDE: usize = 8;
-/// As many cells as a square has.
+/// The cells in a square.
 const SQUARE: usize = SIDE * SIDE;
 
 /// Where a cell's ray from the viewer ends.
@@ -32,7 +32,7 @@ pub(super) struct RayEnd {
     pub(super) face: u32,
     /// The same as it is shown: where faces are flush with the ground, the first of them.
     shown: u32,
-    /// Along the cell's ray, metres.
+    /// The distance along the cell's ray, metres.
     pub(super) distance: f64,
 }
 
@@ -48,7 +48,7 @@ impl RayEnd {
 pub struct RayCast {
     scene: Scene,
     rays: Rays,
-    /// One tree where the same faces receive and cast.
+    /// The same tree as the casters' if the same faces receive and cast.
     receivers: Arc<RayCaster>,
     casters: Arc<RayCaster>,
     flush: Option<FlushFaces>,
@@ -58,7 +58,8 @@ pub struct RayCast {
 }
 
 impl RayCast {
-    /// Builds the trees and finds what the cells see. Rays go to that many points of the sun's disc, or to its centre.
+    /// Builds the trees and finds what the cells see. Rays go to `sun_samples` points of the sun's disc, or to its
+    /// centre.
     pub fn new(scene: Scene, view: View, sun_samples: Option<u32>) -> RayCast {
         let size = view.size();
         Self::of_part(scene, view, ([0, 0], size.into()), sun_samples)
@@ -96,13 +97,13 @@ impl RayCast {
         self.rays.view
     }
 
-    /// Turns to another view, whose rays begin no farther away than those of the first view.
+    /// Turns to another view, whose rays must not begin farther away than those of the first view.
     pub fn look_at(&mut self, view: View) {
         let size = view.size();
         self.look_at_part(view, ([0, 0], size.into()));
     }
 
-    /// Looks at some of a view's cells: from which column and row, and how many.
+    /// Looks at a part of a view's cells: the first column and row, and the size.
     fn look_at_part(&mut self, view: View, (first, [width, height]): ([u32; 2], [u32; 2])) {
         self.rays = Rays { first, ..Rays::new(&self.scene, view) };
         let mut ends = vec![RayEnd::SKY; width as usize * height as usize];
@@ -123,7 +124,7 @@ impl RayCast {
         self.seen = ends;
     }
 
-    /// Looks along parallel rays, from the cells of some rows: how wide they are, and the first one.
+    /// Traces parallel rays for some rows: their width, and the first one.
     fn look_along(&self, shear: &Shear, [width, first_row]: [usize; 2], ends: &mut [RayEnd]) {
         for square in squares(width, ends.len()) {
             let mut rays = ArrayVec::<(DVec3, DVec3), SQUARE>::new();
@@ -164,18 +165,18 @@ impl RayCast {
         &self.seen
     }
 
-    /// A cell's ray: from where (around the scene's origin), and the unit direction.
+    /// A cell's ray: its start relative to the scene's origin, and its unit direction.
     pub(super) fn ray(&self, column: u32, row: u32) -> (DVec3, DVec3) {
         self.rays.of(column, row)
     }
 
-    /// The directions in which rays are cast: to the sun's centre, or to points of its disc.
+    /// The directions of rays: to the sun's centre, or to points of its disc.
     pub(super) fn suns(&self, to_sun: DVec3) -> Vec<(DVec3, Shear)> {
         let points = self.sun_samples.map_or(vec![to_sun], |samples| disc(to_sun, samples).collect());
         points.into_iter().map(|to_point| (to_point, Shear::along(to_point))).collect()
     }
 
-    /// Which share of those a cell sees.
+    /// The share of those that a cell sees.
     pub(super) fn share(&self, at: usize, suns: &[(DVec3, Shear)]) -> u8 {
         let cell = Cell { at, column: at as u32 % self.mask.width, row: at as u32 / self.mask.width };
         let Some((judged, normal)) = self.judged(&mut self.normals(), cell) else { return 255 };
@@ -184,11 +185,11 @@ impl RayCast {
         share_of(suns.iter().filter(lit).count(), suns.len())
     }
 
-    /// Where a cell is judged, and the normal of what it sees; none where it sees nothing that could be in shadow.
+    /// Where a cell is judged, and the normal of what it sees; `None` if nothing there could be in shadow.
     #[inline(always)]
     fn judged(&self, normals: &mut SeenNormals<'_>, Cell { at, column, row }: Cell) -> Option<(DVec3, DVec3)> {
         let RayEnd { face, distance, .. } = self.seen[at];
-        // nor is cut earth asked
+        // cut earth is not judged either
         if face == Surface::SKY || (face == Surface::GROUND && self.rays.is_cut(distance)) {
             return None;
         }
@@ -197,7 +198,7 @@ impl RayCast {
         Some((from + along * distance + normal * JUDGED_ABOVE_M, normal))
     }
 
-    /// Which share of those the cells of some rows see, as [`RayCast::share`], but for squares of cells at once.
+    /// The shares for the cells of some rows: as [`RayCast::share`], but for squares of cells at once.
     fn share_rows(&self, first_row: usize, shares: &mut [u8], suns: &[(DVec3, Shear)]) {
         let width = self.mask.width as usize;
         let mut normals = self.normals();
@@ -231,7 +232,7 @@ impl RayCast {
         }
     }
 
-    /// The normals of faces' seen sides, and of the ground's.
+    /// The normals of the faces' visible sides, and of the ground's.
     fn normals(&self) -> SeenNormals<'_> {
         let RayCast { scene, rays, .. } = self;
         let origin = scene.casters.origin;
@@ -256,8 +257,8 @@ impl RayCast {
         self.seen.iter().map(of_cell).sum()
     }
 
-    /// The share of the sun's centre that a cell sees, found without the trees by testing every face. It is slow; it
-    /// proves the trees themselves.
+    /// The share of the sun's centre that a cell sees, found by testing every face without the trees. It is slow, and
+    /// tests the trees themselves.
     #[doc(hidden)]
     pub fn share_without_trees(&self, column: u32, row: u32, to_sun: DVec3) -> u8 {
         let RayCast { scene, rays, .. } = self;
@@ -279,7 +280,7 @@ impl RayCast {
     }
 }
 
-/// The share of the sun that is seen, rounded to the nearest.
+/// The visible share of the sun, rounded.
 fn share_of(lit: usize, suns: usize) -> u8 {
     ((2 * 255 * lit + suns) / (2 * suns)) as u8
 }
@@ -288,7 +289,7 @@ fn same_faces(one: &Mesh, other: &Mesh) -> bool {
     one.origin == other.origin && one.faces == other.faces && one.vertices == other.vertices
 }
 
-/// Finds normals, and remembers the last one, as neighbours mostly see the same face.
+/// Computes normals, and caches the last one, as neighbours mostly see the same face.
 struct SeenNormals<'a> {
     planes: &'a [DVec4],
     viewer: DVec4,
@@ -311,7 +312,7 @@ impl SeenNormals<'_> {
     }
 }
 
-/// A cell of some rows: which one, and where it lies.
+/// A cell of some rows: its index and position.
 #[derive(Clone, Copy)]
 struct Cell {
     at: usize,
@@ -329,22 +330,22 @@ fn squares(width: usize, cells: usize) -> impl Iterator<Item = impl Iterator<Ite
     })
 }
 
-/// What a cell takes when an edge runs through its very centre, in cells: what lies east of it, and on an edge from west
-/// to east what lies south. That is the rasterisers' top-left rule, so that drawing boards whose walls stand on whole
-/// cells give the same plan on every machine; a ten-thousandth is beyond the rounding of corners and nothing else.
+/// The offset of a cell's ray if an edge runs exactly through its centre, in cells: it sees what is east of the edge,
+/// or south of an edge that runs from west to east. This is the rasterisers' top-left rule, so that models whose walls
+/// are on whole cells give the same plan on every machine. A ten-thousandth is just beyond the rounding of corners.
 pub(super) const TIE: DVec2 = DVec2::new(1e-4, -1e-5);
 
-/// The rays on which cells are seen.
+/// The rays of a view's cells.
 struct Rays {
     view: View,
-    /// Column and row of the view at which what is looked at begins.
+    /// The first column and row of the part that is looked at.
     first: [u32; 2],
     /// The scene's origin.
     origin: DVec3,
     start: RayStart,
 }
 
-/// Where rays begin.
+/// The start of rays.
 enum RayStart {
     /// A height above everything, in the world frame, from which the plan looks down.
     Above(Grid, f64),
@@ -373,7 +374,7 @@ impl Rays {
         distance == 0.0 && matches!(self.view, View::Elevation(side) if side.is_level())
     }
 
-    /// The direction of all rays, where they have one.
+    /// The direction of all rays, if they are parallel.
     fn shared_direction(&self) -> Option<DVec3> {
         match &self.start {
             RayStart::Above(..) => Some(DVec3::NEG_Z),
@@ -382,7 +383,7 @@ impl Rays {
         }
     }
 
-    /// A cell's ray: from where (around the scene's origin), and the unit direction.
+    /// A cell's ray: its start relative to the scene's origin, and its unit direction.
     #[inline(always)]
     fn of(&self, column: u32, row: u32) -> (DVec3, DVec3) {
         let (column, row) = (self.first[0] + column, self.first[1] + row);
@@ -409,10 +410,10 @@ fn away(side: &Elevation, (low, high): (DVec3, DVec3)) -> f64 {
     (nearest - side.target).dot(side.to_viewer) + 1.0
 }
 
-/// What a ray sees whose first face that is.
+/// What a ray sees, given its first hit.
 fn seen(scene: &Scene, view: &View, ray: (DVec3, DVec3), first_hit: Option<(u32, f64)>) -> RayEnd {
     let (origin, direction) = ray;
-    // a level ray that begins below the ground sees the earth that is cut there
+    // a horizontal ray that begins below the ground sees the cut earth
     if direction.z == 0.0 && origin.z + scene.casters.origin.z < scene.ground {
         return RayEnd::of(Surface::GROUND, 0.0);
     }
@@ -426,7 +427,7 @@ fn seen(scene: &Scene, view: &View, ray: (DVec3, DVec3), first_hit: Option<(u32,
     }
 }
 
-/// How far from the origin rays begin, metres.
+/// The distance from the origin at which rays begin, metres.
 pub(super) fn reach(scene: &Scene, view: &View) -> f64 {
     let farthest = match view {
         View::Plan(grid) => {

@@ -1,19 +1,19 @@
-//! Herf's registered projection: it maps what stands between a light and a flat receiver to the receiver's own cells.
+//! Herf's registered projection: maps what is between a light and a flat receiver to the receiver's own cells.
 //!
 //! M. Herf, *Efficient Generation of Soft Shadow Textures*, CMU-CS-97-138, 1997, section 3.2: the pyramid from a
-//! light's sample to a parallelogram is mapped to a box, the same cells for every sample, so that hard shadows of many
-//! samples line up and can simply be added. Our deviations: one formula, with the homogeneous light, for a lamp and for
-//! the sun, whose pyramid is an oblique prism; in place of the paper's third row a height above the receiver, since
-//! faces are cut at a height; and cells in place of the unit square, with centres at whole numbers.
+//! light's sample to a parallelogram is mapped to a box, with the same cells for every sample, so that hard shadows of
+//! many samples are aligned and can simply be added. Our deviations: one formula, with the homogeneous light, for a
+//! lamp and for the sun, whose pyramid is an oblique prism; a height above the receiver instead of the paper's third
+//! row, since faces are cut at a height; and cells instead of the unit square, with centres at whole numbers.
 //!
-//! A point v at the height h above the plane, seen from the light (l, w_l) whose own distance to the plane is f, falls
-//! onto p with p·w = v − (h/f)·l and w = 1 − w_l·h/f, all of which is linear in v.
+//! A point v at the height h above the plane, seen from the light (l, w_l) whose own distance to the plane is f, is
+//! projected to p with p·w = v − (h/f)·l and w = 1 − w_l·h/f, all of which is linear in v.
 
 use super::ray_cast::TIE;
 use crate::mesh::scan::Coverage;
 use glam::{DVec2, DVec3, DVec4};
 
-/// A flat receiver's raster, around any origin.
+/// A flat receiver's raster, relative to any origin.
 #[derive(Clone, Copy, Debug)]
 pub struct Raster {
     /// The corner where its first cell begins. Its height above the plane does not matter.
@@ -24,7 +24,7 @@ pub struct Raster {
     pub down: DVec3,
     /// A cell's side, metres.
     pub cell: f64,
-    /// The plane that is judged: its unit normal towards the judged side, and minus its height along that.
+    /// The judged plane: its unit normal towards the judged side, and minus its height along that.
     pub plane: DVec4,
 }
 
@@ -50,13 +50,12 @@ pub struct ProjectedVertex {
     pub height: f64,
 }
 
-/// A face is cut below a lamp's own height, where w comes this near to 0: what lies above falls too far away to be
-/// placed.
+/// The least w at which faces are cut below a lamp: what is higher is projected too far away.
 pub const LEAST_W: f64 = 1e-6;
 
 impl RasterProjection {
-    /// The projection for a homogeneous light (sun: w = 0, lamp: w = 1) around the raster's origin; `None` if the light
-    /// is not in front of the plane.
+    /// The projection for a homogeneous light (sun: w = 0, lamp: w = 1) relative to the raster's origin; `None` if the
+    /// light is not in front of the plane.
     pub fn new(raster: &Raster, light: DVec4) -> Option<RasterProjection> {
         let front = raster.plane.dot(light);
         if front.partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater) {
@@ -64,7 +63,7 @@ impl RasterProjection {
         }
         let height = raster.plane;
         let w = DVec4::W - height * (light.w / front);
-        // as for rays, what lies right of an edge through a centre counts, then what lies below
+        // as in ray casting: what is right of an edge through a centre counts, then what is below it
         let along = |axis: DVec3, tie: f64| {
             let fallen = axis.extend(0.0) - height * (axis.dot(light.truncate()) / front);
             (fallen - w * axis.dot(raster.corner)) / raster.cell - w * (0.5 + tie)
@@ -103,12 +102,12 @@ impl ClippedFace {
     }
 }
 
-/// Whether a face needs no cutting.
+/// Whether a face is wholly between the plane and the light.
 pub fn is_whole(face: &[ProjectedVertex; 3]) -> bool {
     face.iter().all(|place| place.height > 0.0 && place.at.z > LEAST_W)
 }
 
-/// Cuts a face at the judged plane, and below a lamp. Two faces that share an edge are cut at the same point of it.
+/// Cuts a face at the judged plane, and below a lamp. Two faces cut a shared edge at the same point.
 pub fn part(face: [ProjectedVertex; 3]) -> ClippedFace {
     let mut part = ClippedFace::default();
     if is_whole(&face) {
@@ -147,10 +146,10 @@ fn flat(place: ProjectedVertex) -> DVec2 {
     place.at.truncate() / place.at.z
 }
 
-/// Where the line between two places comes to 0. The same whichever is named first.
+/// The zero of `height` on the line between two vertices. The result does not depend on their order.
 fn cut(one: ProjectedVertex, other: ProjectedVertex, height: impl Fn(ProjectedVertex) -> f64) -> ProjectedVertex {
     let (low, high) = if height(one) < height(other) { (one, other) } else { (other, one) };
-    // homogeneous places are linear, below the plane as well
+    // homogeneous positions are linear, also below the plane
     let along = -height(low) / (height(high) - height(low));
     ProjectedVertex { at: low.at + (high.at - low.at) * along, height: low.height + (high.height - low.height) * along }
 }

@@ -78,7 +78,7 @@ impl ShadowMap {
     }
 }
 
-/// The layout of the packed depths where else the map's depth is bound.
+/// The layout for the packed depths, which are bound instead of the map's depth.
 fn packed_layout(gpu: &Gpu) -> BindGroupLayout {
     let packed = super::bindings::texture_binding(TextureSampleType::Float { filterable: false });
     super::bindings::bind_group_layout(gpu, "packed", &[packed])

@@ -1,8 +1,8 @@
 //! Smoothies: a shadow map with the soft edge of a real sun.
 //!
 //! E. Chan, *Efficient Shadow Algorithms on Graphics Hardware*, 2004, chapter 4. Silhouette edges are extended outwards
-//! in the light's view and drawn beside the map, with how much of the light is seen past each, and how deep it lies. A
-//! cell behind the map's casters is in shadow, one behind a smoothie in part.
+//! in the light's view and drawn beside the map, with the share of the light that is visible past each, and its depth.
+//! A cell behind the map's casters is in shadow, one behind a smoothie partly.
 //!
 //! Deviations, for the sun and for clean corners:
 //!
@@ -30,7 +30,7 @@ use glam::{DVec3, DVec4, Vec3};
 use std::sync::Arc;
 use wgpu::*;
 
-/// The share past a smoothie, and how deep it lies.
+/// The share past a smoothie, and its depth.
 const SMOOTHIES: TextureFormat = TextureFormat::Rg32Float;
 
 /// The technique, made for one scene and one view.
@@ -40,11 +40,11 @@ pub struct Smoothie {
     map: DepthMap,
     finder: Box<dyn SilhouetteFinder>,
     asked: Smoothies,
-    /// What receives and does not cast, where there is any.
+    /// What receives but does not cast, if there is anything.
     receivers: Option<SmoothieReceivers>,
     smoothies: Layer,
     edges: Buffer,
-    /// What is uploaded; kept for its memory.
+    /// The data to upload, kept for its allocation.
     upload: Vec<[Vec3; 2]>,
     depths: BindGroup,
     compared: BindGroup,
@@ -52,7 +52,7 @@ pub struct Smoothie {
     mask: Texture,
 }
 
-/// What receives and does not cast, and the smoothies on what lies behind it.
+/// What receives but does not cast, and the smoothies on what is behind it.
 struct SmoothieReceivers {
     triangles: Triangles,
     depth: Texture,
@@ -66,7 +66,7 @@ struct Layer {
 }
 
 impl Layer {
-    /// Whose alpha the shader's function of that name finds.
+    /// A layer whose alpha is computed by the shader's function of that name.
     fn new(gpu: &Gpu, module: &ShaderModule, layout: &PipelineLayout, size: (u32, u32), alpha: &str) -> Layer {
         let ends = VertexBufferLayout {
             array_stride: size_of::<[Vec3; 2]>() as u64,
@@ -81,7 +81,7 @@ impl Layer {
             target: Some((SMOOTHIES, ColorWrites::ALL)),
             layout: Some(layout),
         };
-        // where smoothies overlap, the darker one; and the one that lies nearer to the sun
+        // where smoothies overlap, the darker one and the nearer one to the sun
         let least = BlendComponent {
             src_factor: BlendFactor::One,
             dst_factor: BlendFactor::One,
@@ -123,7 +123,7 @@ impl Smoothie {
             depth: depth(&gpu, "smoothie.receivers", map_size),
             beyond: layer("alpha_beyond"),
         });
-        // without such receivers nothing lies behind them
+        // without such receivers nothing is behind them
         let (receivers_depth, beyond) =
             receivers.as_ref().map_or((&map.depth, &smoothies), |receivers| (&receivers.depth, &receivers.beyond));
         let views = [&map.depth, receivers_depth, &smoothies.texture, &beyond.texture].map(whole);
@@ -153,8 +153,8 @@ impl Smoothie {
         })
     }
 
-    /// Leaves alpha as it is drawn (`true`), so that every penumbra is as wide as its smoothie, wherever it falls. This
-    /// is for comparison, as in the thesis's figures 4-4 and 4-10.
+    /// Uses alpha as it is drawn (`true`), so that every penumbra is as wide as its smoothie, wherever it falls; for
+    /// comparison, as in the thesis's figures 4-4 and 4-10.
     #[cfg(feature = "test-hooks")]
     pub fn force_linear(&mut self, linear: bool) {
         self.asked.linear = linear;
@@ -171,19 +171,19 @@ impl Smoothie {
         self.draw_light(self.scene.casters.local_light(lamp.extend(1.0)), Smoothies { width_m: width, ..self.asked })
     }
 
-    /// Uploads the silhouette, each edge once however often its walls would stand.
+    /// Uploads the silhouette, each edge once, whatever its multiplicity.
     fn find(&mut self, local_light: DVec4) -> Result<u32, ShadowError> {
         let casters = &self.scene.casters;
         let mut silhouette: Vec<DirectedEdge> = Vec::new();
         self.finder.find(casters, local_light, &mut silhouette);
-        // an edge stands in a row
+        // repeated edges are consecutive
         silhouette.dedup();
         self.upload.clear();
         self.upload.extend(silhouette.iter().map(|edge| edge.map(|vertex| casters.vertices[vertex as usize])));
         let gpu = &self.surface.gpu;
         let bytes: &[u8] = bytemuck::cast_slice(&self.upload);
         if bytes.len() as u64 > self.edges.size() {
-            // room for the next instants, whose silhouettes are much alike
+            // leaves room for the next instants, whose silhouettes are similar
             let size = (bytes.len() as u64 * 3 / 2).next_multiple_of(4);
             self.edges = gpu.buffer("smoothie.edges", size, BufferUsages::VERTEX | BufferUsages::COPY_DST)?;
         }
@@ -254,7 +254,7 @@ impl Technique for Smoothie {
     }
 }
 
-/// Draws the mask from the map and the smoothies.
+/// The pipeline that draws the mask from the map and the smoothies.
 fn softened(gpu: &Gpu, module: &ShaderModule, layout: &PipelineLayout) -> RenderPipeline {
     let stages = Stages {
         module,
@@ -267,5 +267,5 @@ fn softened(gpu: &Gpu, module: &ShaderModule, layout: &PipelineLayout) -> Render
     gpu.pipeline("smoothie.softened", stages, None)
 }
 
-/// No smoothie: all of the sun, and infinitely deep.
+/// The clear value without smoothies: the whole sun, and infinitely deep.
 const NOTHING: Color = Color { r: 1.0, g: 1e30, b: 0.0, a: 0.0 };

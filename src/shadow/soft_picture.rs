@@ -1,4 +1,4 @@
-//! A camera's picture by soft shadow textures: the sun as a disc, on every flat patch that is seen and on the ground.
+//! A camera's picture with soft shadow textures: the sun as a disc, on every visible flat patch and on the ground.
 //!
 //! The patches that the picture sees get their textures ([`crate::shadow::soft_texture`]) with points of the sun's disc
 //! as samples, in texels about as large as a pixel at the scene's middle depth. A pixel takes the mean of the four
@@ -23,18 +23,18 @@ use std::sync::Arc;
 /// The technique, made for one scene and one camera.
 pub struct SoftPicture {
     scene: Scene,
-    /// Sees what the pixels see, and judges those that textures do not.
+    /// Finds what the pixels see, and judges those without textures.
     cast: RayCast,
     samples: u32,
-    /// Of all receivers, with every texel.
+    /// The patches of all receivers, with all texels.
     patches: Patches,
     looks: Vec<PixelTarget>,
     mask: Mask,
-    /// Pixels of the last mask that rays judged as there is no texture.
+    /// The number of pixels in the last mask that rays judged because they have no texture.
     by_rays: usize,
 }
 
-/// What a pixel sees, and so how it is judged.
+/// What a pixel sees, which determines how it is judged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum PixelTarget {
     Sky,
@@ -67,8 +67,8 @@ impl SoftPicture {
         SoftPicture { scene, cast, samples, patches, looks, mask, by_rays: 0 }
     }
 
-    /// The ground on which shadows fall in the picture: from its west and south to its east and north, metres around the
-    /// scene's origin.
+    /// The extent of the ground on which shadows fall in the picture, from its west and south to its east and north,
+    /// metres around the scene's origin.
     fn shaded_ground(&self, to_sun: DVec3) -> Option<[DVec2; 2]> {
         let origin = self.patches.origin;
         let (low, high) = self.scene.casters.bounds()?;
@@ -78,7 +78,7 @@ impl SoftPicture {
             corner.truncate() - to_sun.truncate() * (height / to_sun.z.max(1e-9))
         });
         let [low, high] = bounds(fallen);
-        // the disc's shadows are a little longer
+        // the disc's shadows are slightly longer
         let more = (high - low) * 0.1 + 1.0;
         let within = |at: &DVec2| at.cmpge(low - more).all() && at.cmple(high + more).all();
         let [low, high] = bounds(self.looks.iter().filter_map(|look| match look {
@@ -88,10 +88,10 @@ impl SoftPicture {
         (low.x <= high.x).then_some([low, high])
     }
 
-    /// The ground as a patch; none where it would be too large.
+    /// The ground as a patch; `None` if it would be too large.
     fn ground(&self, [low, high]: [DVec2; 2]) -> Option<Patch> {
         let cell = self.patches.cell;
-        // half a texel more on all sides, so that texels surround every pixel
+        // half a texel more on all sides, so that every pixel is surrounded by texels
         let count = (high - low) / cell + 2.0;
         let ground = self.scene.ground - self.patches.origin.z;
         (count.max_element() < f64::from(4 * MOST_PAGE)).then(|| Patch {
@@ -114,7 +114,7 @@ impl SoftPicture {
         })
     }
 
-    /// The texels around a place of a patch, each with how much it weighs, as far as they are judged.
+    /// The judged texels around a position in a patch, with their weights.
     fn around(&self, patch: u32, at: DVec2, ground: Option<&Patch>) -> impl Iterator<Item = (TexelIndex, f64)> {
         let size = match self.patches.list.get(patch as usize) {
             Some(patch) => [patch.width, patch.height],
@@ -139,7 +139,7 @@ impl SoftPicture {
         texels.binary_search_by_key(&(row, column), |texel| (texel.row, texel.column)).is_ok()
     }
 
-    /// How many points of the disc each of these texels sees; sorted by patch.
+    /// The number of the disc's points that each texel sees; texels are sorted by patch.
     fn counts(&self, places: &[TexelIndex], ground: Option<&Patch>, to_sun: DVec3) -> Result<Vec<u32>, ShadowError> {
         let mut seen = Patches { list: Vec::new(), texels: Vec::new(), faces: Vec::new(), ..self.patches.clone() };
         for of_patch in places.chunk_by(|one, other| one.0 == other.0) {
@@ -162,7 +162,7 @@ impl Technique for SoftPicture {
         let shaded = self.shaded_ground(to_sun);
         let ground = shaded.and_then(|shaded| self.ground(shaded));
         let of_ground = self.patches.list.len() as u32;
-        // where a pixel looks for texels; none where rays are cast
+        // the position of a pixel in its texture; `None` if rays are cast
         let look = |look: &PixelTarget| match *look {
             PixelTarget::Sky | PixelTarget::Bare => None,
             PixelTarget::Patch(patch, at) => Some((patch, at)),
@@ -221,7 +221,7 @@ impl Technique for SoftPicture {
     }
 }
 
-/// What the pixels see.
+/// What each pixel sees.
 fn looks(scene: &Scene, cast: &RayCast, patches: &Patches, width: u32) -> Vec<PixelTarget> {
     let mut patch_of = vec![u32::MAX; scene.receivers.faces.len()];
     for (number, patch) in (0..).zip(&patches.list) {

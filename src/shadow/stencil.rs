@@ -3,8 +3,8 @@
 //! One render pass per instant draws the faces that look away from the sun, then the casters' count and its result in
 //! the mask. `counting` explains how volumes are counted.
 //!
-//! Deviation from *Geometry of Real Time Shadows*: the general rule of [`crate::silhouette`] instead of well-wound
-//! closed meshes alone.
+//! Deviation from *Geometry of Real Time Shadows*: the general rule of [`crate::silhouette`], instead of well-wound
+//! closed meshes only.
 
 use super::counting::{StencilBits, VolumeCounter};
 use super::{DrawnMask, Scene, ShadowError, Silhouettes, Technique};
@@ -52,8 +52,8 @@ impl Stencil {
         Ok(Stencil { counting, facing, mask })
     }
 
-    /// Counts camera views by z-fail (`true`) or z-pass (`false`), whether it is right or not. z-fail always is; a test
-    /// shows z-pass failing where it is not chosen.
+    /// Counts camera views by z-fail (`true`) or z-pass (`false`), right or wrong. z-fail always is right; a test shows
+    /// z-pass failing where it is not chosen.
     #[cfg(feature = "test-hooks")]
     pub fn force_z_fail(&mut self, z_fail: bool) {
         self.counting.force_z_fail(z_fail);

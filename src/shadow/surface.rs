@@ -1,5 +1,5 @@
-//! What each cell of a view sees, on the GPU: a G-buffer that is drawn once for a scene and a view, with the ground
-//! that the stencil technique uses.
+//! What each cell of a view sees, on the GPU: a G-buffer that is drawn once for a scene and a view. It includes the
+//! ground for the stencil technique.
 
 use super::bindings::{Corner, UNIFORM, bind_group_layout, pipeline_layout, planes, texture_binding};
 use super::flush_layer::{FlushCorners, FlushLayer};
@@ -15,10 +15,10 @@ use rayon::prelude::*;
 use std::sync::{Arc, OnceLock};
 use wgpu::*;
 
-/// Faces that are uploaded at once: a receiver is drawn once, so no buffer of all of them is kept.
+/// The number of faces that are uploaded at once: receivers are drawn only once, so no buffer of all of them is kept.
 const FACES_AT_ONCE: usize = 1 << 18;
 
-/// Tiles along a picture's longer side, each of which has a box around what it shows.
+/// The number of tiles along a picture's longer side, each with a box around what it shows.
 const TILES: u32 = 24;
 
 /// Depth and face of what each cell sees, and the uniforms of the view.
@@ -27,18 +27,18 @@ pub struct GpuSurface {
     pub(crate) view: View,
     origin: DVec3,
     pub(crate) clip_from_local: DMat4,
-    /// The lowest point that is judged, metres above the origin.
+    /// The lowest judged point, metres above the origin.
     pub(crate) lowest_z: f64,
     depth: Texture,
     faces: Texture,
     planes: Texture,
-    /// What draws the ground, and receivers.
+    /// The pipelines of the ground, and of receivers.
     pipelines: [RenderPipeline; 2],
     view_buffer: Buffer,
     light: Buffer,
     /// View and light.
     pub(crate) frame: BindGroup,
-    /// What is seen.
+    /// The depth and the face of what is seen.
     pub(crate) seen: BindGroup,
     frame_layout: BindGroupLayout,
     seen_layout: BindGroupLayout,
@@ -106,7 +106,7 @@ impl GpuSurface {
         self.draw_receivers(&scene.receivers)
     }
 
-    /// Turns to another view whose faces are known, one a cell. Depths are not.
+    /// Turns to another view whose faces are known for each cell. Depths are not known.
     pub(crate) fn see(&mut self, scene: &Scene, view: View, faces: &[u32]) -> Result<(), ShadowError> {
         self.turn(scene, view)?;
         let bytes_per_row = Some(view.size().0 * size_of::<u32>() as u32);
@@ -143,7 +143,7 @@ impl GpuSurface {
             (at_once * 3 * size_of::<Corner>()) as u64,
             BufferUsages::VERTEX | BufferUsages::COPY_DST,
         )?;
-        // the receivers first: where ground and a receiver are equally deep, the receiver is seen
+        // receivers first: where the ground and a receiver are equally deep, the receiver is seen
         let runs = (0..receivers.faces.len()).step_by(at_once).map(Some).chain([None]);
         for (index, run) in runs.enumerate() {
             let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
@@ -220,7 +220,7 @@ impl GpuSurface {
         what(&mut pass);
     }
 
-    /// Boxes around what is seen, metres around the scene's origin: one a tile of the picture, the sky left out.
+    /// Boxes around what is seen, metres around the scene's origin: one for each tile of the picture, without the sky.
     pub(crate) fn boxes_of_seen(&self) -> Result<Vec<(DVec3, DVec3)>, ShadowError> {
         let face: Vec<u32> = readback::texels(&self.gpu, &self.faces, TextureAspect::All)?;
         let depth: Vec<f32> = readback::texels(&self.gpu, &self.depth, TextureAspect::DepthOnly)?;
@@ -242,7 +242,7 @@ impl GpuSurface {
         Ok(boxes.collect())
     }
 
-    /// The point that a pixel sees at a depth, metres around the scene's origin.
+    /// The point that a pixel sees at a depth, metres relative to the scene's origin.
     fn point(&self, local_from_clip: &DMat4, at: u32, depth: f32) -> DVec3 {
         let (width, height) = self.view.size();
         let (column, row) = (at % width, at / width);
@@ -251,19 +251,19 @@ impl GpuSurface {
         local_from_clip.project_point3(DVec3::new(x, y, f64::from(depth)))
     }
 
-    /// Takes the commands of an instant.
+    /// An encoder for the commands of an instant.
     pub(crate) fn encoder(&self) -> CommandEncoder {
         self.gpu.device.create_command_encoder(&CommandEncoderDescriptor::default())
     }
 
-    /// The layout of pipelines that read the view, what is seen, and what else they may need.
+    /// The layout of pipelines that read the view, what is seen, and further bindings.
     pub(crate) fn seeing_layout(&self, further: &[&BindGroupLayout]) -> PipelineLayout {
         let groups: Vec<_> =
             [&self.frame_layout, &self.seen_layout].into_iter().chain(further.iter().copied()).collect();
         pipeline_layout(&self.gpu, &groups)
     }
 
-    /// What draws the depth at which each cell is judged.
+    /// The pipeline that draws the depth at which each cell is judged.
     pub(crate) fn judging(&self) -> RenderPipeline {
         let always = DepthStencilState {
             format: COUNTED,
@@ -312,7 +312,7 @@ impl GpuSurface {
         self.set_light(to_sun.extend(0.0));
     }
 
-    /// Sets a light around the scene's origin (sun: w = 0, lamp: w = 1).
+    /// Sets a light relative to the scene's origin (sun: w = 0, lamp: w = 1).
     pub(crate) fn set_light(&self, local_light: DVec4) {
         let light = LightUniforms { towards: local_light.as_vec4().to_array() };
         self.gpu.queue.write_buffer(&self.light, 0, bytemuck::bytes_of(&light));
@@ -370,7 +370,7 @@ impl GpuSurface {
     }
 }
 
-/// Where the depth and the faces of what is seen are drawn.
+/// The textures for the depth and the faces of what is seen.
 fn targets(gpu: &Gpu, view: &View) -> [Texture; 2] {
     let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
     [gpu.texture("surface.depth", view.size(), DEPTH, usage), faces_target(gpu, "surface.faces", view)]
@@ -387,7 +387,7 @@ fn bind_seen(gpu: &Gpu, layout: &BindGroupLayout, textures: [&Texture; 3]) -> Bi
     gpu.bind("seen", layout, &[entry(0), entry(1), entry(2)])
 }
 
-/// What draws the ground, and receivers.
+/// The pipelines of the ground, and of receivers.
 fn pipelines(gpu: &Gpu, frame_layout: &BindGroupLayout) -> [RenderPipeline; 2] {
     let module = gpu.shader("surface", shaders::SURFACE);
     let layout = pipeline_layout(gpu, &[frame_layout]);

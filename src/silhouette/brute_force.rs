@@ -1,4 +1,4 @@
-//! One pass over all edges: the reference with which other finders are compared.
+//! One pass over all edges: the reference for other finders.
 
 use super::finder::{DirectedEdge, QueryCost, SilhouetteFinder, append, multiplicity};
 use crate::mesh::Mesh;
@@ -9,7 +9,7 @@ use rayon::prelude::*;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BruteForce;
 
-/// Edges a task: enough that handing it out costs nothing beside it.
+/// The number of edges per task, large enough that scheduling costs little.
 const RUN: usize = 1 << 15;
 
 impl SilhouetteFinder for BruteForce {

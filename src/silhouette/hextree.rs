@@ -27,9 +27,9 @@ pub const PAPER_DEPTH: u32 = 4;
 /// The tree over the edges of one mesh.
 #[derive(Clone, Debug)]
 pub struct Hextree {
-    /// Centres the mesh and scales it to radius 1: else n·p drowns n, and all duals crowd at w = ±1.
+    /// Centres the mesh and scales it to radius 1; otherwise n·p is much larger than n, and all duals crowd at w = ±1.
     frame: DualFrame,
-    /// The root first; the children of a node in a row.
+    /// The root first; the children of a node are consecutive.
     nodes: Vec<HextreeNode>,
     /// Edges of the mesh, grouped by node.
     edges: Vec<u32>,
@@ -45,13 +45,13 @@ struct HextreeNode {
     children: Range<u32>,
 }
 
-/// An edge in dual space, while the tree is built.
+/// An edge in dual space, during construction.
 struct DualEdge {
     ends: [DVec4; 2],
     edge: u32,
 }
 
-/// Cells are taken this much wider, so that rounding never prunes what the faces' own planes would find.
+/// Cells are enlarged by this, so that rounding never excludes what the faces' own planes would find.
 const MARGIN: f64 = 1e-9;
 
 impl Hextree {
@@ -76,7 +76,7 @@ impl Hextree {
         tree
     }
 
-    /// Keeps in a node the edges that straddle its children, and hands down the others.
+    /// Keeps the edges that straddle a node's children in the node, and passes the others down.
     fn split(&mut self, node: usize, duals: &mut [DualEdge], depth: u32) {
         let HextreeNode { low, size, ref edges, .. } = self.nodes[node];
         let whole = edges.start as usize..edges.end as usize;
@@ -85,7 +85,7 @@ impl Hextree {
         }
         let middle = low + size / 2.0;
         let child_of = |point: DVec4| point.cmpge(middle).bitmask();
-        // none first, so that a node's own edges lie before its children's
+        // none first, so that a node's own edges come before its children's
         let child = |dual: &DualEdge| {
             let [one, other] = dual.ends.map(child_of);
             (one == other).then_some(one)
@@ -130,7 +130,7 @@ impl Hextree {
 impl SilhouetteFinder for Hextree {
     fn find(&mut self, mesh: &Mesh, local_light: DVec4, silhouette: &mut Vec<DirectedEdge>) -> QueryCost {
         let light = self.frame.light(local_light);
-        // per axis, whether a cell's corner most against the light is the upper one
+        // for each axis, whether the cell's corner farthest against the light is the upper one
         let against = DVec4::select(light.cmplt(DVec4::ZERO), DVec4::ONE, DVec4::ZERO);
         let mut looked = QueryCost::default();
         let mut test = |edges: &[u32]| {
@@ -169,17 +169,17 @@ pub(super) struct DualFrame {
 }
 
 impl DualFrame {
-    /// The frame of planes with w = 0, which suns alone ask.
+    /// The frame of planes with w = 0, which is enough for suns.
     pub(super) const OF_SUNS: DualFrame = DualFrame { centre: DVec3::ZERO, radius: 1.0 };
 
-    /// The frame of a mesh, around its origin.
+    /// The frame of a mesh, relative to its origin.
     pub(super) fn around(mesh: &Mesh) -> DualFrame {
         let (low, high) = mesh.bounds().unwrap_or_default();
         let radius = ((high - low).length() / 2.0).max(f64::MIN_POSITIVE);
         DualFrame { centre: (low + high) / 2.0 - mesh.origin, radius }
     }
 
-    /// A plane as a point of length 1; 0 where a face has no area.
+    /// A plane as a point of length 1; 0 for a face without area.
     pub(super) fn dual(&self, plane: DVec4) -> DVec4 {
         let normal = plane.truncate();
         normal.extend((plane.w + normal.dot(self.centre)) / self.radius).normalize_or_zero()

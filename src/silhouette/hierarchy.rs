@@ -1,9 +1,9 @@
-//! The hextree's successor: classes of edges that answer together, under a bounding hierarchy.
+//! The hextree's successor: classes of edges that share their answer, in a bounding volume hierarchy.
 //!
 //! As in [`super::hextree`], an edge between two faces is a segment of the dual space, and part of the silhouette when
 //! the light's hyperplane separates the ends. Three things are different.
 //!
-//! - An edge between faces of one plane is left out: its two ends are one point.
+//! - An edge between two faces in one plane is left out: its ends are the same point.
 //! - Edges whose segments are equal are one **class**, which is tested once and answers with a run of edges. For the
 //!   sun, w = 0, only normals matter, and buildings repeat theirs thousands of times. For a lamp the whole planes
 //!   matter.
@@ -29,7 +29,7 @@ pub struct Hierarchy {
 }
 
 impl Hierarchy {
-    /// The classes that answer for a light, built on first use.
+    /// The classes for a light, built on first use.
     pub fn classes(&mut self, mesh: &Mesh, local_light: DVec4) -> &Classes {
         let of_suns = local_light.w == 0.0;
         let classes = if of_suns { &mut self.suns } else { &mut self.lamps };
@@ -55,7 +55,7 @@ impl SilhouetteFinder for Hierarchy {
     }
 }
 
-/// The edges of one mesh, grouped by what decides whether they are silhouette.
+/// The edges of one mesh, grouped by the planes that decide whether they are silhouette.
 #[derive(Debug)]
 pub struct Classes {
     frame: DualFrame,
@@ -65,15 +65,15 @@ pub struct Classes {
     nodes: Vec<HierarchyNode>,
     /// In the order of the leaves.
     pairs: Vec<PlanePair>,
-    /// The dual of each pair, beside it.
+    /// The dual of each pair.
     segments: Vec<[Vec4; 2]>,
-    /// Classes that no segment stands for; every query tests them.
+    /// Classes that are not a segment; every query tests them.
     sums: Vec<PlaneSum>,
     /// Grouped by class.
     edges: Vec<DirectedEdge>,
 }
 
-/// The answer of a class: its edges, and how often the silhouette contains each; negative if against its direction.
+/// The answer of a class: its edges, and their multiplicity in the silhouette.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ClassEdges {
     /// A range of the edges of [`Classes`], grouped by class.
@@ -82,7 +82,7 @@ pub struct ClassEdges {
     pub multiplicity: i32,
 }
 
-/// Edges between two planes: each plane's sum of directions is `times`, or `turned` for the second its opposite.
+/// Edges between two planes. Each plane's sum of directions is `times`; with `turned`, the second's is the opposite.
 #[derive(Clone, Copy, Debug)]
 struct PlanePair {
     planes: [u32; 2],
@@ -92,33 +92,33 @@ struct PlanePair {
     edges: u32,
 }
 
-/// Edges with any faces: the sum of directions in each plane.
+/// Edges with any number of faces: the sum of directions in each plane.
 #[derive(Debug)]
 struct PlaneSum {
     terms: Vec<(u32, i32)>,
     edges: Range<u32>,
 }
 
-/// Eight children: a box around the segments of each, and a sphere in the same middle. Their numbers lie side by side,
-/// as the processor takes them.
+/// Eight children: a box around the segments of each, and a sphere with the same centre. The values are stored side by
+/// side for SIMD.
 #[derive(Clone, Copy, Debug)]
 struct HierarchyNode {
     centre: [[f32; WIDTH]; 4],
     half: [[f32; WIDTH]; 4],
-    /// Below every distance where there is no child.
+    /// Negative for an absent child, so that it is never hit.
     radius: [f32; WIDTH],
-    /// Leaf: its first class. Else a node.
+    /// For a leaf its first class, otherwise a node.
     at: [u32; WIDTH],
-    /// Leaf: how many classes. Else 0.
+    /// For a leaf the number of its classes, otherwise 0.
     classes: [u32; WIDTH],
 }
 
-/// Children a node.
+/// The children per node.
 const WIDTH: usize = 8;
-/// Classes a leaf, at most. From 3 to 10 the dome's queries look at much the same.
+/// The most classes in a leaf. With 3 to 10, queries on the dome test about as much.
 const LEAF: usize = 8;
-/// What `f32` says of a sign is taken where it is this far from 0, for points and lights of length 1; else the planes
-/// themselves decide.
+/// The least distance from 0 at which the sign of an `f32` product is trusted, for points and lights of length 1;
+/// closer to 0 the planes themselves decide.
 const MARGIN: f32 = 2e-6;
 
 impl Classes {
@@ -171,7 +171,7 @@ impl Classes {
         classes
     }
 
-    /// Builds the hierarchy over the pairs, and brings them into the order of its leaves.
+    /// Builds the hierarchy over the pairs, and sorts them in the order of its leaves.
     fn bound(&mut self) {
         let duals: Vec<DVec4> = self.planes.iter().map(|&plane| self.frame.dual(plane)).collect();
         let dual = |pair: &PlanePair| {
@@ -186,7 +186,7 @@ impl Classes {
         self.segments = segments.iter().map(|segment| segment.ends).collect();
     }
 
-    /// The classes that are part of the silhouette for a light around the mesh's origin.
+    /// Finds the classes that are part of the silhouette for a light relative to the mesh's origin.
     pub fn ask(&self, local_light: DVec4, runs: &mut Vec<ClassEdges>) -> QueryCost {
         let before = runs.len();
         for sum in &self.sums {
@@ -213,7 +213,7 @@ impl Classes {
         for (pair, certain, before_first) in crossed {
             let PlanePair { planes, times, turned, first_edge, edges } = self.pairs[pair];
             let multiplicity = if certain {
-                // the ends lie on two sides: both planes' sums have the first one's sign
+                // the ends are on different sides, so both planes' sums have the first one's sign
                 if before_first { 2 * times } else { -2 * times }
             } else {
                 let [one, other] = planes.map(|plane| self.facing(plane, local_light));
@@ -227,10 +227,10 @@ impl Classes {
         looked
     }
 
-    /// The pairs in the boxes that a light's hyperplane crosses, and how many boxes were looked at.
+    /// The pairs in the boxes that a light's hyperplane crosses, and the number of tested boxes.
     ///
-    /// Level by level: what a level needs is touched before it is asked, so that memory brings it all at once. Between
-    /// two queries much else has been in the caches, and waiting for each node in turn would take most of the time.
+    /// It proceeds level by level and touches a level's memory before testing it, so that loads overlap. Between two
+    /// queries the caches have been used for much else, and waiting for each node in turn would take most of the time.
     fn leaves(&self, light: Vec4) -> (Vec<Range<usize>>, usize) {
         let (mut leaves, mut visited) = (Vec::new(), 0);
         let mut level = Vec::from_iter((!self.nodes.is_empty()).then_some(0));
@@ -254,14 +254,14 @@ impl Classes {
             }
             level = below;
         }
-        // a line of 64 bytes holds two segments
+        // a cache line of 64 bytes holds two segments
         let touched =
             |leaf: &Range<usize>| self.segments[leaf.clone()].iter().step_by(2).map(|ends| ends[0].x).sum::<f32>();
         black_box(leaves.iter().map(touched).sum::<f32>());
         (leaves, visited)
     }
 
-    /// +1 where the light is on the front side of a plane or in it, else −1.
+    /// +1 if the light is on the front side of a plane or in it, otherwise −1.
     fn facing(&self, plane: u32, local_light: DVec4) -> i32 {
         if plane_faces(self.planes[plane as usize], local_light) { 1 } else { -1 }
     }
@@ -285,7 +285,7 @@ impl Classes {
     }
 }
 
-/// A class while the hierarchy is built.
+/// A class during construction.
 #[derive(Clone, Copy)]
 struct Segment {
     ends: [Vec4; 2],
@@ -293,12 +293,13 @@ struct Segment {
 }
 
 impl HierarchyNode {
-    /// Something of each 64 bytes.
+    /// Reads one value of every 64 bytes.
     fn touched(&self) -> f32 {
         self.centre[0][0] + self.centre[2][0] + self.half[0][0] + self.half[2][0] + self.radius[0]
     }
 
-    /// Per child, how far the hyperplane of a light passes its box, or its sphere; not above 0 where it crosses both.
+    /// For each child, the distance by which a light's hyperplane misses its box or its sphere; at most 0 if it crosses
+    /// both.
     fn distances(&self, light: Vec4) -> [f32; WIDTH] {
         let (light, light_abs) = (light.to_array(), light.abs().to_array());
         std::array::from_fn(|child| {
@@ -312,7 +313,7 @@ impl HierarchyNode {
     }
 }
 
-/// Appends the node over some segments and those below it, and brings the segments into the order of the leaves.
+/// Appends the node over some segments and those below it, and sorts the segments in the order of the leaves.
 fn bound(segments: &mut [Segment], first: u32, nodes: &mut Vec<HierarchyNode>) {
     let nothing = [0.0; WIDTH];
     let index = nodes.len();
@@ -345,7 +346,7 @@ fn bound(segments: &mut [Segment], first: u32, nodes: &mut Vec<HierarchyNode>) {
     }
 }
 
-/// Halves segments at the median of the widest extent of either end, again and again, into so many parts at the most.
+/// Repeatedly halves segments at the median of the widest extent of either end, into at most `most` parts.
 fn parts(segments: &mut [Segment], most: usize) -> Vec<&mut [Segment]> {
     if most < 2 || segments.len() <= LEAF {
         return vec![segments];
@@ -367,7 +368,7 @@ fn extent(points: impl Iterator<Item = Vec4>) -> (Vec4, Vec4) {
     points.fold((Vec4::INFINITY, Vec4::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)))
 }
 
-/// The planes that occur, for suns their normals alone, and per face which of them is its.
+/// The distinct planes, for suns only their normals, and for each face the index of its plane.
 fn distinct_planes(mesh: &Mesh, of_suns: bool) -> (Vec<DVec4>, Vec<u32>) {
     let mut planes = Vec::new();
     let mut known: FxHashMap<[u64; 4], u32> = FxHashMap::default();

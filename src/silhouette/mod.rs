@@ -1,11 +1,11 @@
-//! What bounds the shadow: the edges from which a volume's walls hang.
+//! The silhouette: the edges from which a volume's walls are extruded.
 //!
 //! Every face is turned towards the light. An edge then carries the sum of its faces' directions, its **multiplicity**:
 //! 0 inside a surface, ±1 at a border, ±2 at the silhouette of a two-sided surface, more where faces crowd. The rule is
 //! that of M. Herf, *Efficient Generation of Soft Shadow Textures*, 1997, section 4.3.3, extended to edges with any
 //! number of faces; for two well-wound faces it is the classic rule of *Geometry of Real Time Shadows*, section 4,
-//! counted for both halves of the surface. It is right for every mesh, since it only adds up the prisms that the single
-//! faces cut out of the light.
+//! counted for both halves of the surface. It is right for every mesh, since it only adds up the prisms behind single
+//! faces.
 
 #[doc(hidden)]
 pub mod brute_force;

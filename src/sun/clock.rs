@@ -1,4 +1,4 @@
-//! The instant of a reading at a place: the time that the clock there, or the sun, gives it.
+//! The instant of a reading at a place, by its clock or the sun.
 
 use super::day::light;
 use super::zone::Jump;
@@ -9,10 +9,10 @@ use chrono::{DateTime, FixedOffset, NaiveDate, NaiveDateTime, Offset, TimeDelta,
 pub(super) enum ReadingTime {
     /// An instant.
     At(DateTime<Zone>),
-    /// A sunrise or sunset that does not happen: the time that replaces it in a window, and the error for everything
+    /// A sunrise or sunset that does not happen: the time that a window uses instead, and the error for everything
     /// else.
     Instead(DateTime<Zone>, SunError),
-    /// No single instant: the two instants that the reading could mean, and the error that says so.
+    /// No single instant: the two instants that the reading could mean, and the error.
     Not([DateTime<Zone>; 2], SunError),
 }
 
@@ -29,8 +29,8 @@ impl Reading {
         }
     }
 
-    /// As [`Reading::at`], where a window begins or ends: with the date's light, and where it has none at what stands
-    /// for a sunrise or sunset that does not happen.
+    /// As [`Reading::at`], for the beginning or end of a window: with the date's light, and with the replacement for a
+    /// sunrise or sunset that does not happen.
     pub(super) fn bound(&self, place: &Place, date: NaiveDate) -> Result<DateTime<Zone>, SunError> {
         let of_light = |end: usize, shift_secs| {
             let light = light(place, self.date.unwrap_or(date))?;
@@ -50,13 +50,13 @@ impl Reading {
         }
     }
 
-    /// As [`Reading::at`], but keeps what stands for an event, and what an impossible clock time could have meant.
+    /// As [`Reading::at`], but also returns the replacement for an event, and what an impossible clock time could mean.
     pub(super) fn when(&self, place: &Place, date: NaiveDate) -> Result<ReadingTime, SunError> {
         let date = self.date.unwrap_or(date);
         let event = |event, shift_secs, of: fn(&Day) -> Option<DateTime<Zone>>| {
             let day = Day::of(place, date)?;
             Ok(match of(&day) {
-                // Shifts are at most 366 days and years four digits: no overflow.
+                // no overflow: shifts are at most 366 days, and years have four digits
                 Some(time) => ReadingTime::At(time + TimeDelta::seconds(shift_secs)),
                 None => {
                     let (why, reading) = (day.why_absent(), self.text.clone());
@@ -111,15 +111,15 @@ fn local(zone: Zone, local: NaiveDateTime, offset: Option<FixedOffset>) -> Readi
     }
 }
 
-/// A local time that clocks jump over: both ways to read it, and the jump itself.
+/// A local time that clocks skip: its two interpretations, and the jump.
 fn gap(zone: Zone, local: NaiveDateTime, jump: &Jump) -> ReadingTime {
     let by = |offset: FixedOffset| zone.from_utc_datetime(&(local - offset));
     let [before, after] = [jump.before, jump.after].map(|offset| jump.at + offset);
-    // where a whole day is left out, the clock alone says nothing
+    // if a whole date is skipped, a time without its date would be ambiguous
     let two_dates = before.date() != after.date();
     let [before, after] =
         [before, after].map(|clock| if two_dates { format!("{clock:?}") } else { clock.time().to_string() });
-    // by the new clock it is before the jump, by the old one after it
+    // with the new offset it is before the jump, with the old offset after it
     let meant = [by(jump.after), by(jump.before)];
     ReadingTime::Not(
         meant,
@@ -127,7 +127,7 @@ fn gap(zone: Zone, local: NaiveDateTime, jump: &Jump) -> ReadingTime {
     )
 }
 
-/// A time as it may be written again.
+/// A time as it can be typed again.
 fn written(time: DateTime<Zone>) -> String {
     let seconds = if chrono::Timelike::second(&time) == 0 { "%Y-%m-%dT%H:%M" } else { "%Y-%m-%dT%H:%M:%S" };
     format!("{}{}", time.format(seconds), time.offset().fix())

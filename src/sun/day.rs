@@ -5,18 +5,18 @@ use super::{Place, SunError, TimeOfDay, Zone};
 use chrono::{DateTime, Datelike, DurationRound, NaiveDate, NaiveTime, TimeDelta, TimeZone};
 use solar_positioning::{Events, Horizon, SolarEvents};
 
-/// What a sunrise is: almanacs and some rules mean different ones, minutes apart.
+/// The definition of sunrise and sunset. Almanacs and some rules use different ones, which are minutes apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Sunrise {
     /// The upper limb appears in standard air: the centre is 0.833° below the horizon.
     #[default]
     Almanac,
-    /// The centre is at the horizon, and no air bends its light.
+    /// The centre is at the horizon, without refraction.
     Geometric,
 }
 
 impl Sunrise {
-    /// Altitude of the sun's centre, without refraction, at which it happens, degrees.
+    /// The altitude of the sun's centre, without refraction, that defines it, degrees.
     fn altitude_deg(self) -> f64 {
         match self {
             Sunrise::Almanac => -0.833,
@@ -25,18 +25,18 @@ impl Sunrise {
     }
 }
 
-/// One calendar day at the place; what does not happen on it (polar day and night) is absent.
+/// A calendar day at the place. Events that do not happen on it (polar day and night) are `None`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Day {
     /// The local date.
     pub date: NaiveDate,
-    /// Upper limb at −0.833°.
+    /// When the upper limb is at −0.833°, rising.
     pub sunrise: Option<DateTime<Zone>>,
-    /// The sun's transit.
+    /// When the sun crosses the meridian.
     pub noon: Option<DateTime<Zone>>,
-    /// Upper limb at −0.833°.
+    /// When the upper limb is at −0.833°, setting.
     pub sunset: Option<DateTime<Zone>>,
-    /// Whether the sun neither rises nor sets on it.
+    /// Set if the sun neither rises nor sets on this day.
     pub polar: Option<Polar>,
 }
 
@@ -52,8 +52,8 @@ pub enum Polar {
 impl Day {
     /// The events of one local date, to the second, at sea level's horizon.
     ///
-    /// A date that a zone skipped has none. Where polar day begins or ends a date can have two of one kind:
-    /// the sunrise is the first, the sunset the first after it.
+    /// A date that a zone skipped has no events. At the beginning or end of polar day a date can have two sunrises or
+    /// sunsets: `sunrise` is the first, `sunset` the first after it.
     ///
     /// # Errors
     /// A year outside 1600 to 2999.
@@ -61,7 +61,7 @@ impl Day {
         Day::by(place, date, Sunrise::Almanac)
     }
 
-    /// As [`Day::of`], with another meaning of sunrise and sunset.
+    /// As [`Day::of`], with a different definition of sunrise and sunset.
     ///
     /// # Errors
     /// A year outside 1600 to 2999.
@@ -80,7 +80,7 @@ impl Day {
         Ok(Day { date, sunrise: on_date(rise), noon, sunset: on_date(set), polar })
     }
 
-    /// Why it lacks a sunrise or sunset, in words.
+    /// Why it has no sunrise or sunset, in words.
     pub(crate) fn why_absent(&self) -> &'static str {
         match self.polar {
             Some(Polar::Day) => "the sun stays up all day (polar day)",
@@ -90,8 +90,8 @@ impl Day {
         }
     }
 
-    /// What of the day stands for a sunrise or sunset that it lacks, where a window is bound to it: where the sun is up,
-    /// its first or its last midnight; where it stays down, noon.
+    /// The replacement in a window for a sunrise or sunset that does not happen: if the sun is up, the first or last
+    /// midnight of the day; if it is down, noon.
     pub(super) fn instead(&self, place: &Place, of: TimeOfDay) -> DateTime<Zone> {
         match (self.polar, of) {
             (Some(Polar::Night), _) => self.noon.unwrap_or_else(|| midnight(place, self.date)),
@@ -101,7 +101,7 @@ impl Day {
     }
 }
 
-/// Where a day's light begins or ends.
+/// The beginning or end of a day's light.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Bound {
     /// At a sunrise or sunset.
@@ -111,21 +111,21 @@ pub(super) enum Bound {
 }
 
 impl Bound {
-    /// So many seconds later; midnight is where it is, as nothing happens there to count from.
+    /// The same some seconds later. Midnight stays, as it is not an event to count from.
     pub(super) fn shifted(self, secs: i64) -> DateTime<Zone> {
         match self {
-            // Shifts are at most 366 days and years four digits: no overflow.
+            // no overflow: shifts are at most 366 days, and years have four digits
             Bound::Event(time) => time + TimeDelta::seconds(secs),
             Bound::Midnight(time) => time,
         }
     }
 }
 
-/// From when to when the light of a date is; `None` where it has none.
+/// The beginning and end of a date's light; `None` if it has none.
 ///
-/// Light from a sunrise to its sunset belongs to the date of the sunrise, though the sunset may lie on the next one. Light
-/// of more than a day, as around midsummer near the poles, is cut at each midnight. So all light is some date's, and none
-/// is of two. Where a date has two pieces the night between them is within.
+/// Light from a sunrise to its sunset belongs to the date of the sunrise, even if the sunset is on the next date. Light
+/// longer than a day, as at midsummer near the poles, is cut at each midnight. So all light belongs to exactly one
+/// date. If a date has two pieces of light, the night between them is included.
 pub(super) fn light(place: &Place, date: NaiveDate) -> Result<Option<[Bound; 2]>, SunError> {
     const LONGEST: TimeDelta = TimeDelta::hours(24);
     let today = events(place, date, Sunrise::Almanac)?;
@@ -163,7 +163,7 @@ pub(super) fn light(place: &Place, date: NaiveDate) -> Result<Option<[Bound; 2]>
     Ok(Some([begin, end.unwrap_or_else(|| Bound::Midnight(midnight(place, next)))]))
 }
 
-/// Everything that the sun does between one local midnight and the next.
+/// The sun's events between one local midnight and the next.
 fn events(place: &Place, date: NaiveDate, sunrise: Sunrise) -> Result<Events<DateTime<Zone>>, SunError> {
     check_year(date.year())?;
     let delta_t = delta_t_secs(date.and_time(NaiveTime::MIN).and_utc())?;
@@ -172,19 +172,19 @@ fn events(place: &Place, date: NaiveDate, sunrise: Sunrise) -> Result<Events<Dat
         .map_err(|error| SunError::Position(error.to_string()))
 }
 
-/// The nearest whole second on the same local date.
+/// Rounds to whole seconds within the same local date.
 fn to_second(time: DateTime<Zone>) -> DateTime<Zone> {
     let second = TimeDelta::seconds(1);
     let near = time.duration_round(second).unwrap_or(time);
     if near.date_naive() == time.date_naive() {
         near
     } else {
-        // Half a second before midnight.
+        // half a second before midnight
         time.duration_trunc(second).unwrap_or(time)
     }
 }
 
-/// The first instant of a local date: its first midnight or, where clocks skip that, the instant with which they go on.
+/// The first instant of a local date: midnight, or the end of the jump if clocks skip midnight.
 pub(super) fn midnight(place: &Place, date: NaiveDate) -> DateTime<Zone> {
     match place.time_zone.readings(date.and_time(NaiveTime::MIN)) {
         Ok([first, _]) => first,

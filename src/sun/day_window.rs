@@ -1,4 +1,4 @@
-//! The part of a day that a question about single days covers.
+//! The part of a day for questions about single days.
 
 use super::day::midnight;
 use super::{Day, Place, Reading, SunError, Window, Zone};
@@ -16,12 +16,12 @@ pub struct DayWindow {
 }
 
 impl DayWindow {
-    /// All of a local date, from midnight to midnight, or the part between two readings without dates. As in a study's
-    /// window, a `to` earlier than `from` is on the next day. But if the part is bound to the sun and its end comes
-    /// before its beginning, as `sunset-…` does before `sunrise+…`, it is empty.
+    /// The whole local date, from midnight to midnight, or the part between two readings without dates. As in a study's
+    /// window, a `to` earlier than `from` is on the next day. But if both are bound to the sun and the end is before
+    /// the beginning, as with `sunrise+…` and `sunset-…` on a short day, the window is empty.
     ///
     /// # Errors
-    /// Readings that are no instants on that date, or equal; a year outside 1600 to 2999.
+    /// Readings that are not instants on that date, or are equal; a year outside 1600 to 2999.
     pub fn on(
         place: &Place,
         date: NaiveDate,

@@ -6,13 +6,14 @@ use chrono::{DateTime, NaiveDate};
 use rayon::prelude::*;
 
 impl SunTrack {
-    /// The instants of a window on each of several consecutive dates: those of each day's own window, one day after
-    /// another, with the same weights. Where a day's window ends as the next begins, the two share one instant.
+    /// Returns the instants of the same window on each of several consecutive dates: those of each day's window, one
+    /// after another, with the same weights. If a day's window ends when the next begins, they share one instant.
     ///
-    /// Where `sunrise+…` is later than `sunset-…` a day has none; bound to the sun, in polar night, its noon alone.
+    /// A day has no instants if `sunrise+…` is later than `sunset-…`. If the window is bound to the sun, a polar night
+    /// has only noon.
     ///
     /// # Errors
-    /// What [`DayWindow::on`] says, a step of 0 or one that makes too many instants, dates without an instant at all.
+    /// The errors of [`DayWindow::on`], a step of 0 or one that makes too many instants, or dates without any instant.
     pub fn days(
         place: &Place,
         dates: &[NaiveDate],
@@ -23,7 +24,7 @@ impl SunTrack {
         if step_secs == 0 {
             return Err(SunError::ZeroStep);
         }
-        // what the day before has taken is counted with it
+        // time that the day before has used is not used again
         let is_bound = matches!(
             [&each.from, &each.to].map(|reading| reading.as_ref().map(|reading| reading.time)),
             [None | Some(TimeOfDay::Clock(..) | TimeOfDay::Sunrise(_)), Some(TimeOfDay::Sunset(_))]

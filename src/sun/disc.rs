@@ -6,10 +6,11 @@ use std::f64::consts::PI;
 /// The sun's angular diameter, radians: 0.533°.
 pub const SUN_DISC_RAD: f64 = 0.533 * PI / 180.0;
 
-/// Unit vectors to `samples` points of the sun's disc around the unit vector to its centre, each for an equal part of it.
+/// Returns unit vectors to `samples` points of the sun's disc around the unit vector to its centre. Each represents an
+/// equal part of the disc.
 ///
 /// The points are a spiral of golden angles (H. Vogel, *A better way to construct the sunflower head*, Mathematical
-/// Biosciences 44, 1979): evenly spread whatever their number, and always the same.
+/// Biosciences 44, 1979), which are evenly spread for any number, and always the same.
 pub fn disc(to_sun: DVec3, samples: u32) -> impl Iterator<Item = DVec3> {
     let golden = PI * (3.0 - 5.0_f64.sqrt());
     let (across, along) = to_sun.any_orthonormal_pair();

@@ -4,30 +4,30 @@ use super::Zone;
 use crate::message::{Field, Message, Piece, Worded, pieces, plain_display};
 use chrono::{DateTime, NaiveDate, NaiveDateTime};
 
-/// Why a place, a reading or a window has no sun track.
+/// Why a place, a reading or a window is refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SunError {
-    /// A coordinate outside the earth, or not a number.
+    /// A coordinate out of range, or not a number.
     OutOfRange {
         /// `latitude`, `longitude` or `elevation`.
         what: &'static str,
-        /// What was given.
+        /// The given value.
         value: f64,
-        /// Smallest value taken.
+        /// The least allowed value.
         low: f64,
-        /// Largest value taken.
+        /// The greatest allowed value.
         high: f64,
-        /// Of all three numbers.
+        /// The unit of all three.
         unit: &'static str,
     },
-    /// A name that the time zone database does not know.
+    /// A name that is not in the time zone database.
     UnknownZone {
-        /// What was given.
+        /// The given name.
         name: String,
-        /// What was meant, and a hint.
+        /// What it probably means, and a hint.
         hint: String,
     },
-    /// No zone could be found from the coordinates.
+    /// The coordinates have no time zone.
     NoZone {
         /// Degrees, north positive.
         latitude_deg: f64,
@@ -36,54 +36,54 @@ pub enum SunError {
     },
     /// Not a date.
     BadDate {
-        /// What was given.
+        /// The given text.
         text: String,
     },
     /// Not a clock reading.
     BadReading {
-        /// What was given.
+        /// The given text.
         text: String,
     },
     /// Not a duration.
     BadDuration {
-        /// What was given.
+        /// The given text.
         text: String,
     },
-    /// A step of nothing.
+    /// A step of 0.
     ZeroStep,
-    /// More instants than anyone wants.
+    /// Too many instants.
     TooManyInstants {
         /// The requested step.
         step_secs: u32,
         /// The requested window.
         window_secs: i64,
-        /// How many that makes.
+        /// The number of instants.
         instants: i64,
-        /// How many are taken.
+        /// The greatest number.
         most: i64,
-        /// The smallest step that fits.
+        /// The least step that is possible.
         least_secs: i64,
     },
-    /// A window of more days than can be summed.
+    /// A window that is too long to be summed.
     WindowTooLong {
-        /// Whole days asked.
+        /// The length in whole days.
         days: i64,
-        /// How many are taken.
+        /// The greatest length.
         most: i64,
     },
-    /// A day's window begins before that of the day before ends.
+    /// A day's window begins before the previous day's window ends.
     Overlap {
         /// The later date.
         date: NaiveDate,
     },
-    /// On none of several days there is anything between `from` and `to`.
+    /// No day of several has any time between `from` and `to`.
     NoWindow {
         /// The first date.
         first: NaiveDate,
         /// The last date.
         last: NaiveDate,
     },
-    /// On a date there is nothing between `from` and `to`, which are bound to the sun.
+    /// A date has no time between `from` and `to`, which are bound to the sun.
     NothingAsked {
         /// As written.
         from: String,
@@ -91,7 +91,7 @@ pub enum SunError {
         to: String,
         /// The local date.
         date: NaiveDate,
-        /// What the sun does then.
+        /// What the sun does on that date.
         why: &'static str,
     },
     /// `from` and `to` are the same.
@@ -100,31 +100,31 @@ pub enum SunError {
         from: String,
         /// As written.
         to: String,
-        /// The next day's `to` with its date.
+        /// `to` on the next day, with its date.
         example: String,
     },
-    /// `to` names its own day and lies before `from`.
+    /// `to` has its own date, and is before `from`.
     Backwards {
-        /// Start.
+        /// The beginning.
         from: DateTime<Zone>,
-        /// End.
+        /// The end.
         to: DateTime<Zone>,
     },
-    /// The reading has no date and nothing else gives one.
+    /// The reading has no date, and the request has none.
     NoDate {
         /// As written.
         reading: String,
     },
-    /// The date is said twice, differently.
+    /// Two different dates are given.
     TwoDates {
         /// As written.
         reading: String,
-        /// The study's.
+        /// The study's date.
         date: NaiveDate,
     },
-    /// Skipped when clocks went forward.
+    /// A time that clocks skip when they go forward.
     NoSuchTime {
-        /// What was asked.
+        /// The given time.
         local: NaiveDateTime,
         /// The time zone of that clock.
         zone: Zone,
@@ -132,14 +132,14 @@ pub enum SunError {
         before: String,
         /// The clock at the jump, after it.
         after: String,
-        /// What the new clock's offset makes of it.
+        /// Its instant by the new offset.
         earlier: String,
-        /// What the old clock's offset makes of it.
+        /// Its instant by the old offset.
         later: String,
     },
-    /// Read twice when clocks went back.
+    /// A time that happens twice when clocks go back.
     TwoReadings {
-        /// What was asked.
+        /// The given time.
         local: NaiveDateTime,
         /// The time zone of that clock.
         zone: Zone,
@@ -147,47 +147,47 @@ pub enum SunError {
         earlier: String,
         /// The second one, with its offset.
         later: String,
-        /// What to write for the second.
+        /// How to write the second.
         example: String,
     },
-    /// The offset is none that the clock has at that time.
+    /// An offset that the clock does not have at that time.
     WrongOffset {
-        /// What was asked.
+        /// The given time.
         local: NaiveDateTime,
         /// The time zone of that clock.
         zone: Zone,
-        /// What was given.
+        /// The given offset.
         offset: String,
-        /// The readings that exist, with their offsets.
+        /// The times that exist, with their offsets.
         choices: String,
     },
-    /// A reading counts from a sunrise or sunset that does not happen.
+    /// A reading relative to a sunrise or sunset that does not happen.
     NoEvent {
         /// `sunrise` or `sunset`.
         event: &'static str,
         /// The local date.
         date: NaiveDate,
-        /// Polar day, polar night or a day between.
+        /// Polar day, polar night, or a day between them.
         why: &'static str,
         /// As written.
         reading: String,
     },
-    /// Outside the years for which the earth's rotation is known well enough.
+    /// A year for which the Earth's rotation is not known well enough.
     Year {
-        /// What was asked.
+        /// The given year.
         year: i32,
-        /// First year taken.
+        /// The first allowed year.
         first: i32,
-        /// Last year taken.
+        /// The last allowed year.
         last: i32,
     },
-    /// The solar position library refused.
+    /// An error of the solar position library.
     Position(String),
 }
 
 plain_display!(SunError);
 
-/// As the site file has it.
+/// As in the site file.
 const FROM: Piece = Piece::Key(Field::From);
 const TO: Piece = Piece::Key(Field::To);
 
@@ -198,7 +198,6 @@ impl Worded for SunError {
 }
 
 impl SunError {
-    /// What is wrong.
     fn what(&self) -> Vec<Piece> {
         let text = match self {
             SunError::OutOfRange { what, value, low, high, unit } => {
@@ -229,7 +228,7 @@ impl SunError {
                 format!("on {date} there is nothing from {from} to {to}: {why}")
             }
             SunError::EmptyWindow { from, to, .. } => format!("the window from {from} to {to} is empty"),
-            SunError::Backwards { from, to } => format!("the window ends at {to}, before it begins at {from}"),
+            SunError::Backwards { from, to } => format!("the window ends at {to}, before its beginning at {from}"),
             SunError::NoDate { reading } => format!("{reading} needs a date"),
             SunError::TwoDates { reading, date } => format!("{reading} is not on the study's date {date}"),
             SunError::NoSuchTime { local, zone, before, after, .. } => {
@@ -244,7 +243,7 @@ impl SunError {
         pieces![text]
     }
 
-    /// What can be done; nothing where the error says it all.
+    /// What to do; empty if the error already says it.
     fn hint(&self) -> Vec<Piece> {
         match self {
             SunError::OutOfRange { .. } | SunError::Position(_) => pieces![],
@@ -256,10 +255,10 @@ impl SunError {
                  offset from UTC as in 02:30+01:00"
             ],
             SunError::BadDuration { .. } => pieces!["write 30min, 1h, 1h30 or 90s, at most 366 days"],
-            SunError::Year { .. } => pieces!["take a date within"],
+            SunError::Year { .. } => pieces!["choose a date in these years"],
             SunError::ZeroStep => pieces!["give at least 1s, for example 30min"],
-            SunError::TooManyInstants { least_secs, .. } => pieces![format!("take a step of at least {least_secs}s")],
-            SunError::WindowTooLong { .. } => pieces!["take a shorter one"],
+            SunError::TooManyInstants { least_secs, .. } => pieces![format!("choose a step of at least {least_secs}s")],
+            SunError::WindowTooLong { .. } => pieces!["choose a shorter one"],
             SunError::Overlap { .. } => pieces!["give an earlier `", TO, "`"],
             SunError::NoWindow { .. } => pieces!["give an earlier `", FROM, "` or a later `", TO, "`"],
             SunError::NothingAsked { .. } => pieces!["give clock times, or `", TO, "` with its own date"],

@@ -1,4 +1,4 @@
-//! What a time zone that does not exist probably means: an offset, a city, or a misspelt zone.
+//! Suggests what an unknown time zone probably means: an offset, a city, or a misspelling.
 
 use super::{Zone, zone_names};
 use unicode_normalization::UnicodeNormalization;
@@ -6,7 +6,7 @@ use unicode_normalization::UnicodeNormalization;
 /// The hint, to follow a semicolon. `here` is the zone at the place's coordinates.
 pub(super) fn way_out(name: &str, here: Option<Zone>) -> String {
     let or_none = match here {
-        Some(here) => format!("leave time_zone out, and it is \"{here}\" by the coordinates"),
+        Some(here) => format!("leave time_zone out: by the coordinates it is \"{here}\""),
         None => "give the name of a city's zone, as in \"Europe/Paris\"".to_owned(),
     };
     if let Some(minutes) = offset_minutes(name) {
@@ -14,7 +14,7 @@ pub(super) fn way_out(name: &str, here: Option<Zone>) -> String {
             Some(zone) if minutes == 0 => format!("write \"{zone}\", or {or_none}"),
             Some(zone) => {
                 let (hours, side) = (minutes.abs() / 60, if minutes > 0 { "ahead of" } else { "behind" });
-                format!("{hours} h {side} UTC all year is \"{zone}\", which turns the sign round; or {or_none}")
+                format!("{hours} h {side} UTC all year is \"{zone}\", whose name has the opposite sign; or {or_none}")
             }
             None => format!("no zone has that offset all year; {or_none}"),
         };
@@ -28,7 +28,7 @@ pub(super) fn way_out(name: &str, here: Option<Zone>) -> String {
     }
 }
 
-/// Minutes ahead of UTC: `+02:00`, `-7`, `UTC+2`, `GMT +0530`; nothing where it is no offset.
+/// Minutes ahead of UTC in `+02:00`, `-7`, `UTC+2`, `GMT +0530`; `None` for other text.
 fn offset_minutes(text: &str) -> Option<i32> {
     let text: String = text.chars().filter(|letter| !letter.is_whitespace()).collect::<String>().to_uppercase();
     let bare = ["UTC", "GMT", "Z"].iter().find_map(|prefix| text.strip_prefix(prefix));
@@ -38,7 +38,7 @@ fn offset_minutes(text: &str) -> Option<i32> {
     let mut rest = bare.unwrap_or(&text).chars();
     let sign = match rest.next()? {
         '+' => 1,
-        // the true minus sign as well, which word processors write
+        // word processors write the true minus sign
         '-' | '−' => -1,
         _ => return None,
     };
@@ -55,7 +55,7 @@ fn offset_minutes(text: &str) -> Option<i32> {
     Some(sign * (60 * number(hours)? + number(minutes).filter(|minutes| *minutes < 60)?))
 }
 
-/// The zone that is always so many minutes ahead of UTC. Its name has the sign of POSIX, which counts to the west.
+/// The zone with a constant offset. Its name has the sign of POSIX, positive to the west.
 fn always(minutes: i32) -> Option<&'static str> {
     let name = match minutes / 60 {
         _ if minutes % 60 != 0 => return None,
@@ -65,9 +65,9 @@ fn always(minutes: i32) -> Option<&'static str> {
     zone_names().find(|zone| *zone == name)
 }
 
-/// The zone of that name in other capitals, or whose city it is: `berlin`, `São Paulo`, `Deutschland/Berlin`.
+/// The zone with that name in other capitals, or with that city: `berlin`, `São Paulo`, `Deutschland/Berlin`.
 fn zone_named_so(name: &str) -> Option<&'static str> {
-    /// What stands before regions of a state, and not before cities.
+    /// prefixes of names of regions, not of cities
     const STATES: [&str; 6] = ["Brazil/", "Canada/", "Chile/", "Etc/", "Mexico/", "US/"];
     let is_city = |zone: &&str| zone.contains('/') && !STATES.iter().any(|state| zone.starts_with(state));
     let city = letters(last_part(name));
@@ -75,8 +75,8 @@ fn zone_named_so(name: &str) -> Option<&'static str> {
     zone_names().find(|zone| zone.eq_ignore_ascii_case(name)).or_else(of_city)
 }
 
-/// The zone from which it differs by a slip of the pen, by two in a long name. Another city is none, however alike; and
-/// of what is as short as `PST` nothing can be told.
+/// The zone with a name that differs by one letter, or two in a long name. Names of other cities are excluded, and
+/// names as short as `PST` are too ambiguous.
 fn zone_like(name: &str) -> Option<&'static str> {
     const SHORT: usize = 5;
     const LONG: usize = 9;
@@ -96,7 +96,7 @@ fn last_part(name: &str) -> &str {
     name.rsplit(['/', '\\']).next().unwrap_or(name)
 }
 
-/// Lower case, without accents, and without what stands between words.
+/// Lower case, without accents and separators.
 fn letters(name: &str) -> String {
     name.nfd().filter(|letter| letter.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }

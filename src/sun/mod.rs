@@ -1,4 +1,4 @@
-//! Where the sun is: the position by NREL SPA, and the instants of a study with their weights.
+//! The sun: its position by NREL SPA, and the instants of a study with their weights.
 
 mod clock;
 mod day;

@@ -1,11 +1,11 @@
-//! A place on Earth: checked coordinates, and the zone whose clock is read there.
+//! A place on Earth: checked coordinates and a time zone.
 
 use super::{SunError, Zone, ZoneRules, meant};
 use std::sync::OnceLock;
 
-/// A point on the earth and its clock.
+/// A point on the Earth with its time zone.
 ///
-/// Latitude and longitude stay in degrees, as the world writes them and as SPA takes them.
+/// Latitude and longitude stay in degrees, as people write them and as SPA expects them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Place {
     /// Its name; empty if it has none.
@@ -16,7 +16,7 @@ pub struct Place {
     pub longitude_deg: f64,
     /// Metres above sea level.
     pub elevation_m: f64,
-    /// The zone whose clock is read there.
+    /// The zone whose clock is used.
     pub time_zone: Zone,
 }
 
@@ -26,7 +26,7 @@ impl Place {
     /// `time_zone` is an IANA name; without one it is found from the coordinates.
     ///
     /// # Errors
-    /// A number out of its range (or not one), a zone that does not exist, no zone at the coordinates.
+    /// A number out of its range (or NaN), an unknown zone, or no zone at the coordinates.
     pub fn new(
         name: &str,
         latitude_deg: f64,
@@ -48,7 +48,7 @@ impl Place {
     }
 }
 
-/// Written so that a NaN is outside too.
+/// The condition also refuses NaN.
 fn within(what: &'static str, value: f64, low: f64, high: f64, unit: &'static str) -> Result<(), SunError> {
     if (low..=high).contains(&value) {
         return Ok(());
@@ -56,15 +56,15 @@ fn within(what: &'static str, value: f64, low: f64, high: f64, unit: &'static st
     Err(SunError::OutOfRange { what, value, low, high, unit })
 }
 
-/// The zone on land or at sea at a point of the earth.
+/// Returns the time zone at a point of the Earth, on land or at sea.
 ///
 /// # Errors
-/// [`SunError::NoZone`] where the map has none, or one that the zone database does not know.
+/// [`SunError::NoZone`] if the map has none, or one that the zone database does not have.
 pub fn zone_at(latitude_deg: f64, longitude_deg: f64) -> Result<Zone, SunError> {
-    // Reading the map takes tens of milliseconds and megabytes: once, and only for those who need it.
+    // loading the map takes tens of milliseconds and several megabytes: once, and only when needed
     static FINDER: OnceLock<tzf_rs::DefaultFinder> = OnceLock::new();
     let finder = FINDER.get_or_init(tzf_rs::DefaultFinder::new);
-    // Longitude first: the library's order.
+    // longitude first in this library
     let name = finder.get_tz_name(longitude_deg, latitude_deg);
     ZoneRules::newest().zone(name).ok_or(SunError::NoZone { latitude_deg, longitude_deg })
 }

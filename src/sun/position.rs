@@ -1,15 +1,15 @@
-//! The sun's position by NREL's SPA (Reda and Andreas 2003, as the crate `solar-positioning` has it).
+//! The sun's position by NREL's SPA (Reda and Andreas 2003), computed by the crate `solar-positioning`.
 
 use super::{Place, SunError};
 use chrono::{DateTime, Datelike, Utc};
 use glam::DVec3;
 use solar_positioning::{Location, RefractionCorrection, SolarPositions, delta_t};
 
-/// The years taken: Espenak and Meeus end at 3000, and no zone's clock is known in antiquity.
+/// The allowed years: Espenak and Meeus end at 3000, and for antiquity no clocks are known.
 const FIRST_YEAR: i32 = 1600;
 const LAST_YEAR: i32 = 2999;
 
-/// The air that bends the sun's light.
+/// The air that refracts the sun's light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Air {
     /// Hectopascal (millibar), at the place.
@@ -43,12 +43,12 @@ impl Position {
     }
 }
 
-/// The sun's position at a time, with ΔT in seconds; without `air` there is no refraction.
+/// Computes the sun's position at a time, with ΔT in seconds. Without `air` there is no refraction.
 ///
-/// UTC stands for UT1, from which it never differs by more than 0.9 s (0.004° of the earth's turn).
+/// UTC is used as UT1, from which it never differs by more than 0.9 s (0.004° of the Earth's rotation).
 ///
 /// # Errors
-/// What the library refuses: a time outside the years −2000 to 6000, or air that is none.
+/// Errors of the library: a time outside the years −2000 to 6000, or impossible air.
 pub fn position(place: &Place, time: DateTime<Utc>, delta_t_secs: f64, air: Option<Air>) -> Result<Position, SunError> {
     let refused = |error: solar_positioning::Error| SunError::Position(error.to_string());
     let correction =
@@ -59,7 +59,7 @@ pub fn position(place: &Place, time: DateTime<Utc>, delta_t_secs: f64, air: Opti
     Ok(Position { azimuth_deg: seen.azimuth(), altitude_deg: seen.elevation_angle() })
 }
 
-/// The place as the library takes it.
+/// The place in the library's type.
 pub(super) fn location(place: &Place) -> Location {
     Location { latitude: place.latitude_deg, longitude: place.longitude_deg }
 }
@@ -67,9 +67,9 @@ pub(super) fn location(place: &Place) -> Location {
 /// ΔT = TT − UT1 in seconds, by the polynomials of Espenak and Meeus
 /// (Five Millennium Canon of Solar Eclipses, NASA/TP-2006-214141), at the middle of the month.
 ///
-/// The library's estimator is theirs before 2005. From there on it follows newer observations
-/// (about 6 s less in 2026), so their own later polynomials are written here.
-/// Six seconds of ΔT turn the sun by 0.00007°, less than SPA's own uncertainty of 0.0003°.
+/// The library's estimator is the same before 2005. After that it uses newer observations (about 6 s less in 2026), so
+/// the later polynomials of Espenak and Meeus are implemented here. Six seconds of ΔT move the sun by 0.00007°, less
+/// than SPA's own uncertainty of 0.0003°.
 ///
 /// # Errors
 /// A year outside 1600 to 2999.

@@ -1,28 +1,28 @@
-//! Reads what people write for times, dates and durations.
+//! Reads times, dates and durations as people write them.
 
 use super::SunError;
 use chrono::{FixedOffset, NaiveDate, NaiveTime};
 use std::fmt;
 use std::str::FromStr;
 
-/// A time as written: a clock time, or one that counts from the sun's rise or set.
+/// A time as written: a clock time, or one relative to sunrise or sunset.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Reading {
-    /// Its own date, if it names one.
+    /// Its own date, if it has one.
     pub date: Option<NaiveDate>,
     /// Its time of day.
     pub time: TimeOfDay,
     pub(super) text: String,
 }
 
-/// The part of a reading within its day.
+/// A time of day as written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TimeOfDay {
-    /// Local clock time in whole seconds. The offset chooses between two instants with the same time.
+    /// Local clock time in whole seconds. The offset distinguishes two instants with the same clock time.
     Clock(NaiveTime, Option<FixedOffset>),
-    /// Seconds after the sunrise.
+    /// Seconds after sunrise; negative before.
     Sunrise(i64),
-    /// Seconds after the sunset.
+    /// Seconds after sunset; negative before.
     Sunset(i64),
 }
 
@@ -38,7 +38,7 @@ impl FromStr for Reading {
     fn from_str(text: &str) -> Result<Self, SunError> {
         let bad = || SunError::BadReading { text: text.into() };
         let compact: String = text.split_whitespace().collect::<Vec<_>>().join(" ");
-        // A date ends at a T or, as TOML and people also write it, at a space.
+        // A date ends at a T or at a space, as in TOML.
         let (date, rest) = match compact.as_bytes().get(4) {
             Some(b'-') => {
                 let (date, rest) = compact.split_once(['T', 't', ' ']).ok_or_else(bad)?;
@@ -98,7 +98,7 @@ fn duration(text: &str) -> Option<u32> {
         let digits = rest.bytes().take_while(u8::is_ascii_digit).count();
         let (count, tail) = rest.split_at(digits);
         let count = u64::from(number(count)?);
-        // `1h30`: minutes below 60 need no unit where hours stand before them and nothing after.
+        // `1h30`: minutes below 60 need no unit after hours.
         let (size, tail) = if tail.is_empty() && rest.len() < text.len() {
             let minutes = units.next().filter(|unit| unit.0 == "min" && count < 60)?;
             (minutes.1, tail)
@@ -112,7 +112,7 @@ fn duration(text: &str) -> Option<u32> {
     u32::try_from(seconds).ok().filter(|_| written)
 }
 
-/// What follows `sunrise`: nothing, or a sign and a duration. In seconds.
+/// The part after `sunrise`: nothing, or a sign and a duration. In seconds.
 fn parse_shift(text: &str) -> Option<i64> {
     if text.is_empty() {
         return Some(0);
@@ -120,12 +120,12 @@ fn parse_shift(text: &str) -> Option<i64> {
     if let Some(later) = text.strip_prefix('+') {
         return duration(later).map(i64::from);
     }
-    // The true minus sign as well, which word processors write.
+    // word processors write the true minus sign
     let earlier = text.strip_prefix('-').or_else(|| text.strip_prefix('−'))?;
     duration(earlier).map(|seconds| -i64::from(seconds))
 }
 
-/// `10:00`, `10:00:30`, each with an offset or not.
+/// `10:00`, `10:00:30`, each with or without an offset.
 fn parse_clock(text: &str) -> Option<(NaiveTime, Option<FixedOffset>)> {
     if let Some(clock) = text.strip_suffix(['Z', 'z']) {
         return Some((parse_time(clock)?, FixedOffset::east_opt(0)));

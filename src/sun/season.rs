@@ -1,4 +1,4 @@
-//! Where the sun stands on the ecliptic, and when it reaches the points that calendars name.
+//! The sun's ecliptic longitude, and when it reaches the points that calendars name.
 
 use super::position::{check_year, delta_t_secs};
 use super::{Place, SunError, Zone};
@@ -6,8 +6,8 @@ use chrono::{DateTime, NaiveDate, NaiveTime, TimeDelta, Utc};
 use solar_positioning::SolarPositions;
 use solar_positioning::time::JulianDate;
 
-/// A point of the year that is told by the sun's apparent longitude. Months are those of the Gregorian calendar, so the
-/// names say the same on both hemispheres.
+/// A point of the year, defined by the sun's apparent longitude. The names use months, so they mean the same in both
+/// hemispheres.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Season {
     /// 0°.
@@ -34,7 +34,7 @@ impl Season {
         }
     }
 
-    /// Month and day close to when the sun is there.
+    /// The month and day near which it falls.
     pub(crate) fn about(self) -> (u32, u32) {
         match self {
             Season::MarchEquinox => (3, 20),
@@ -45,14 +45,14 @@ impl Season {
         }
     }
 
-    /// When the sun is there in a year.
+    /// Returns when the sun reaches it in a year.
     ///
     /// # Errors
     /// A year outside 1600 to 2999.
     pub fn time(self, year: i32) -> Result<DateTime<Utc>, SunError> {
-        /// What the sun moves in a second on average, degrees.
+        /// The sun's mean motion per second, degrees.
         const DEGREES_A_SECOND: f64 = 360.0 / (365.242_2 * 86_400.0);
-        /// Each turn leaves a thirtieth of the error, as the sun's speed is within 3.4% of its average.
+        /// The number of iterations. Each reduces the error thirtyfold, as the sun's speed is within 3.4% of its mean.
         const TURNS: usize = 6;
         check_year(year)?;
         let (month, day) = self.about();
@@ -66,7 +66,7 @@ impl Season {
         Ok(time)
     }
 
-    /// The local date on which the sun is there.
+    /// Returns the local date on which the sun reaches it.
     ///
     /// # Errors
     /// A year outside 1600 to 2999.
@@ -76,11 +76,12 @@ impl Season {
     }
 }
 
-/// The sun's apparent geocentric longitude, degrees: with nutation and aberration, from the true equinox of the date.
+/// Returns the sun's apparent geocentric longitude, degrees: with nutation and aberration, from the true equinox of the
+/// date.
 ///
-/// It is SPA's right ascension and declination, turned about the equinox by the true obliquity. The obliquity is the IAU's
-/// mean one (Lieske 1979) with the four largest terms of its nutation (Meeus, Astronomical Algorithms, ch. 22: to 0.1"),
-/// as SPA's own is not to be had; the sun needs 2 s for 0.1".
+/// Computed from SPA's right ascension and declination by a rotation about the equinox by the true obliquity. That is
+/// the IAU's mean obliquity (Lieske 1979) with the four largest terms of its nutation (Meeus, Astronomical Algorithms,
+/// ch. 22: to 0.1"), since the library does not expose SPA's own. The sun moves by 0.1" in 2 s.
 ///
 /// # Errors
 /// A year outside 1600 to 2999.
@@ -95,7 +96,7 @@ pub fn apparent_longitude_deg(time: DateTime<Utc>) -> Result<f64, SunError> {
     Ok(across.atan2(cos_ascension).to_degrees().rem_euclid(360.0))
 }
 
-/// The true obliquity of the ecliptic at so many centuries after 2000, radians.
+/// The true obliquity of the ecliptic, radians; `centuries` counts from the year 2000.
 fn obliquity_rad(centuries: f64) -> f64 {
     let t = centuries;
     let mean_arcsec = 84_381.448 - 46.815 * t - 0.000_59 * t * t + 0.001_813 * t * t * t;

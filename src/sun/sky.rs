@@ -1,36 +1,36 @@
-//! Where the sun stands at a place, and when it rises and sets between two instants.
+//! The sun's position at a place, and its rises and sets between two instants.
 
 use super::{Air, Instant, Place, SunError, Zone, position};
 use chrono::{DateTime, TimeDelta};
 
-/// With what the sun of a study is found.
+/// Everything that the sun's position in a study depends on.
 #[derive(Clone, Copy, Debug)]
 pub struct Sky<'a> {
     /// The place from which the sun is seen.
     pub place: &'a Place,
     /// ΔT, seconds.
     pub delta_t_secs: f64,
-    /// The air that bends the sun's light; without it there is no refraction.
+    /// The air that refracts the sun's light; `None` for no refraction.
     pub air: Option<Air>,
 }
 
-/// Where the sun rises and sets between two instants.
+/// The rises and sets of the sun between two instants.
 #[derive(Clone, Debug)]
 pub struct HorizonCrossings {
-    /// The first second that is otherwise than at the instant before: with a sun or without.
+    /// The first second at which night has become day, or day night.
     pub first: DateTime<Zone>,
-    /// From here on it is as at the instant after.
+    /// From here on it is as at the later instant.
     pub last: DateTime<Zone>,
-    /// Where the sun rises or sets more than once: the middle of each stretch between two of these times, with the
-    /// stretch's seconds as its weight.
+    /// If the sun rises or sets more than once: the middle of each stretch between these times, with the stretch's
+    /// seconds as its weight.
     pub between: Vec<Instant>,
 }
 
 impl Sky<'_> {
-    /// The sun at a time, of weight 0.
+    /// Returns the sun at a time, with weight 0.
     ///
     /// # Errors
-    /// As [`position()`].
+    /// As for [`position()`].
     pub fn at(&self, time: DateTime<Zone>) -> Result<Instant, SunError> {
         let seen = position(self.place, time.to_utc(), self.delta_t_secs, self.air)?;
         let mut instant = Instant {
@@ -46,20 +46,21 @@ impl Sky<'_> {
         Ok(instant)
     }
 
-    /// The first seconds after an instant, to a second one, that are otherwise than the second before: with a sun or without.
+    /// Returns the first seconds of day after night, and of night after day, between two instants.
     ///
     /// # Errors
-    /// As [`position()`].
+    /// As for [`position()`].
     pub fn changes(&self, before: &Instant, after: &Instant) -> Result<Vec<DateTime<Zone>>, SunError> {
         let mut changes = Vec::new();
         self.search(before, after, &mut changes)?;
         Ok(changes)
     }
 
-    /// Where the sun rises and sets between two instants, whole seconds apart; `None` where it does not.
+    /// Returns the rises and sets of the sun between two instants a whole number of seconds apart; `None` if there are
+    /// none.
     ///
     /// # Errors
-    /// As [`position()`].
+    /// As for [`position()`].
     pub fn cut(&self, before: &Instant, after: &Instant) -> Result<Option<HorizonCrossings>, SunError> {
         let changes = self.changes(before, after)?;
         let (Some(first), Some(last)) = (changes.first(), changes.last()) else { return Ok(None) };
@@ -72,8 +73,8 @@ impl Sky<'_> {
         Ok(Some(HorizonCrossings { first: *first, last: *last, between }))
     }
 
-    /// Finds every change between night and day, to the second, by halving. A half whose ends agree is left alone where
-    /// the sun cannot have been at the horizon between them: the way there and back would take longer.
+    /// Finds every change between night and day, to the second, by bisection. A half with equal ends is skipped if the
+    /// sun cannot have reached the horizon and come back within it.
     fn search(&self, before: &Instant, after: &Instant, found: &mut Vec<DateTime<Zone>>) -> Result<(), SunError> {
         let secs = (after.time - before.time).num_seconds();
         let changes = before.night != after.night;
@@ -89,18 +90,18 @@ impl Sky<'_> {
         self.search(&middle, after, found)
     }
 
-    /// So many seconds the sun takes at least from an instant to the horizon, and took at least from there.
+    /// The least number of seconds between an instant and a sun at the horizon, before or after.
     pub fn least_secs_to_horizon(&self, instant: &Instant) -> f64 {
-        /// More than the sky turns, degrees an hour.
+        /// More than the sky's rotation, degrees per hour.
         const TURN: f64 = 15.05;
-        /// More than the sun's declination changes, degrees an hour.
+        /// More than the change of the sun's declination, degrees per hour.
         const DECLINE: f64 = 0.02;
-        /// More than the densest air lifts a sun at the horizon, degrees. Deep below it nothing is lifted.
+        /// More than the greatest refraction at the horizon, degrees. Far below it there is none.
         const LIFTED_DEG: f64 = 0.7;
         const DEEP_DEG: f64 = -0.5;
         let altitude = instant.altitude_deg();
         let lifted = if self.air.is_some() && altitude < DEEP_DEG { LIFTED_DEG } else { 0.0 };
-        // the air makes a sun that it lifts slower, never faster
+        // refraction only slows the sun's apparent motion
         let degrees_an_hour = TURN * self.place.latitude_deg.to_radians().cos() + DECLINE;
         (altitude.abs() - lifted).max(0.0) / degrees_an_hour * 3600.0
     }

@@ -3,7 +3,7 @@
 use super::{Air, Day, Instant, Place, Polar, Reading, Sky, Zone};
 use crate::message::Message;
 
-/// The part of each day that a study of several days covers, as written; the whole day where neither end is given.
+/// The part of each day in a study of several days, as written; the whole day if neither end is given.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct EachDay {
     /// Its beginning.
@@ -12,28 +12,29 @@ pub struct EachDay {
     pub to: Option<Reading>,
 }
 
-/// The instants of a study, in time's order, and the days they lie on.
+/// The instants of a study, in order of time, and the days that they are on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SunTrack {
-    /// In time's order, at least one.
+    /// In order of time, at least one.
     pub instants: Vec<Instant>,
-    /// The days the window touches.
+    /// The days that the window touches.
     pub days: Vec<Day>,
     /// The window of each day, if the study has several days.
     pub each_day: Option<EachDay>,
     /// The step between instants in seconds; 0 for a single instant.
     pub step_secs: u32,
-    /// How near together the instants lie between which times of change are found, seconds; 0 where the instants alone are
-    /// asked. A minute, or the step where that is shorter, unless the site file says otherwise.
+    /// The precision of times of change between instants, seconds; 0 to use the instants alone. By default a minute, or
+    /// the step if that is shorter.
     pub resolution_secs: u32,
     /// Whether directions include atmospheric refraction.
     pub refraction: bool,
-    /// ΔT used, seconds (Espenak and Meeus), at the window's start.
+    /// The ΔT that was used, seconds (Espenak and Meeus), at the window's start.
     pub delta_t_secs: f64,
 }
 
 impl SunTrack {
-    /// Each of the instants by itself, on its own day, as [`SunTrack::at`] tells of one: of weight and step 0.
+    /// Returns tracks of single instants, each on its own day, as [`SunTrack::at`] returns them: with weight and step
+    /// 0.
     pub fn each(&self) -> impl Iterator<Item = SunTrack> {
         self.instants.iter().map(|instant| {
             let date = instant.time.date_naive();
@@ -49,13 +50,13 @@ impl SunTrack {
         })
     }
 
-    /// The sky under which its instants were found: the sun at any time between them.
+    /// Returns the sky for these instants, to find the sun at times between them.
     pub fn sky<'a>(&self, place: &'a Place) -> Sky<'a> {
         let air = self.refraction.then(|| Air::standard(place.elevation_m));
         Sky { place, delta_t_secs: self.delta_t_secs, air }
     }
 
-    /// What the user should know of its clock, and of days without a sun; each a sentence without its stop.
+    /// The notes on its clock, and on days without a sun; each a sentence without a full stop.
     pub fn notes(&self) -> Vec<Message> {
         let dark = self.days.iter().filter(|day| day.polar == Some(Polar::Night)).count();
         let dark = match self.days.as_slice() {
@@ -67,7 +68,7 @@ impl SunTrack {
         doubt.into_iter().chain(dark).map(Message::from).collect()
     }
 
-    /// How long the window is, seconds: the sum of the weights.
+    /// The length of the window, seconds: the sum of the weights.
     #[cfg(feature = "test-hooks")]
     pub fn window_secs(&self) -> u64 {
         self.instants.iter().map(|instant| u64::from(instant.weight_secs)).sum()

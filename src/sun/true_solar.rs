@@ -1,14 +1,14 @@
-//! The clock that the sun itself is: true solar time.
+//! True solar time.
 
 use super::{Day, Place, SunError, Zone};
 use chrono::{DateTime, NaiveDate, TimeDelta};
 
-/// When a sundial shows so many seconds after its midnight on a local date; nothing where the clock leaves out that date or
-/// the one beside it.
+/// Returns when a sundial shows `secs` seconds after midnight on a local date; `None` if the clock skips that date or
+/// an adjoining one.
 ///
-/// A sundial shows noon when the sun passes the meridian, and counts 24 hours from one noon to the next. The equation of
-/// time changes by 30 s a day at most and nearly evenly, so between two noons the time is shared evenly; what that leaves
-/// out is far below the second to which noons are known.
+/// A sundial shows noon when the sun crosses the meridian, and counts 24 hours from one noon to the next. The equation
+/// of time changes by at most 30 s a day and nearly linearly, so time is interpolated linearly between two noons. The
+/// error is far below the second to which noons are known.
 ///
 /// # Errors
 /// A year outside 1600 to 2999.

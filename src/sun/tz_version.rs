@@ -1,23 +1,23 @@
-//! The releases of the IANA Time Zone Database, and which of two is later.
+//! The releases of the IANA Time Zone Database, in order.
 
-/// A release of the database, such as 2026f; a later one is greater.
+/// A release of the database, such as 2026f. Later ones compare greater.
 ///
-/// Its year, and a letter that counts the year's releases: 26 of them are followed by `za`.
+/// A release has its year and a letter; the 26th release of a year is followed by `za`.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct TzVersion {
     year: i32,
-    // compared before the letters
+    // longer suffixes are later, so the length is compared before the letters
     length: usize,
     letters: String,
 }
 
 impl TzVersion {
-    /// Earlier than every release: what a bundle that names none counts as.
+    /// Earlier than every release: for a bundle without a version.
     pub(super) fn unknown() -> TzVersion {
         TzVersion { year: 0, length: 0, letters: String::new() }
     }
 
-    /// Reads `2026f`, and ignores what packagers add (`2026f-dfsg`). `None` for text that is not a release.
+    /// Reads `2026f`, and ignores suffixes of packagers (`2026f-dfsg`). `None` for text that is not a release.
     pub fn parse(text: &str) -> Option<TzVersion> {
         let (year, rest) = text.trim().split_at_checked(4)?;
         let length = rest.bytes().take_while(u8::is_ascii_lowercase).count();

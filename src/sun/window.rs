@@ -1,4 +1,4 @@
-//! A study's window: its instants, and how many seconds each stands for.
+//! A study's window: its instants, and the seconds that each represents.
 
 use super::clock::ReadingTime;
 use super::day::{light, midnight};
@@ -8,37 +8,37 @@ use chrono::{DateTime, Datelike, NaiveDate, SubsecRound, TimeDelta};
 use rayon::prelude::*;
 use std::cmp::Ordering;
 
-/// Beyond this a step is a slip of the pen.
+/// A step that makes more instants than this is a mistake.
 pub(super) const MOST_INSTANTS: i64 = 1_000_000;
-/// Ten years: weights and their sums stay far inside their integers.
+/// Ten years: weights and their sums stay far within their integer types.
 pub const MOST_DAYS: i64 = 3660;
 
-/// To how many seconds times of change are found on a single day where nobody says and the step is longer. On several days
-/// the search would take as long as a study by the minute, so it is left to who asks for it.
+/// The default precision of times of change on a single day, if the step is longer. For several days the search would
+/// take as long as a study by the minute, so the default is to use the instants alone.
 const RESOLUTION_SECS: u32 = 60;
 
 /// The requested window of a study: from one reading to another, in steps.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Window {
-    /// The local date on which it begins; not needed where `from` has its own.
+    /// The local date on which it begins; not used if `from` has its own.
     pub date: Option<NaiveDate>,
     /// Its first instant.
     pub from: Reading,
-    /// Its last instant; where it is earlier than `from`, on the next day.
+    /// Its last instant; if it is earlier than `from`, on the next day.
     pub to: Reading,
     /// Elapsed seconds between instants.
     pub step_secs: u32,
 }
 
 impl Window {
-    /// Its first and last instant at a place.
+    /// Returns its first and last instant at a place.
     ///
-    /// From a sunrise to a sunset it is the light of the date; without light both are noon. Bound to an event that does
-    /// not happen it begins or ends with the day's light, and both may be one instant. From a clock time to the sunset, and
-    /// from the sunrise to a clock time, it does not go on to the next day.
+    /// From a sunrise to a sunset it is the light of the date; without light both are noon. If it is bound to an event
+    /// that does not happen, it begins or ends with the day's light, and both ends may be the same instant. From a
+    /// clock time to the sunset, or from the sunrise to a clock time, it never extends to the next day.
     ///
     /// # Errors
-    /// No date, two dates, readings that are no instants, or a window that is empty or runs backwards.
+    /// No date, two dates, readings that are not instants, or a window that is empty or ends before it begins.
     pub fn bounds(&self, place: &Place) -> Result<[DateTime<Zone>; 2], SunError> {
         let date = date_of(&self.from, self.date)?;
         if let Some([from, to]) = self.light(place, date)?
@@ -64,7 +64,7 @@ impl Window {
             ReadingTime::At(to) if to > from => return Ok([from, to]),
             ReadingTime::At(to) if to == from => return Err(self.empty(date)),
             ReadingTime::Instead(to, _) if to >= from => return Ok([from, to]),
-            // The hour that clocks skip or repeat matters only where the window ends in it.
+            // an hour that clocks skip or repeat matters only if the window ends in it
             ReadingTime::Not(meant, error) if meant.iter().any(|to| *to >= from) => return Err(error),
             ReadingTime::At(_) | ReadingTime::Instead(..) | ReadingTime::Not(..) => {}
         }
@@ -72,22 +72,22 @@ impl Window {
         match self.to.when(place, next)? {
             ReadingTime::At(to) if to > from => Ok([from, to]),
             ReadingTime::At(to) => Err(SunError::Backwards { from, to }),
-            // the next day's light is that day's
+            // the next day's light belongs to the next day
             ReadingTime::Instead(..) => Ok([from, midnight(place, next).max(from)]),
             ReadingTime::Not(_, error) => Err(error),
         }
     }
 
-    /// Its first instant, as [`Window::bounds`] has it where it is not the light of a date.
+    /// Returns its first instant, as [`Window::bounds`] does unless the window is the light of a date.
     ///
     /// # Errors
-    /// No date, two dates, a reading that is no instant.
+    /// No date, two dates, or a reading that is not an instant.
     pub fn begin(&self, place: &Place) -> Result<DateTime<Zone>, SunError> {
         self.from.bound(place, date_of(&self.from, self.date)?)
     }
 
-    /// The end of a window that never goes on to the next day's sun: from a clock time to the sunset, or from the sunrise to
-    /// a clock time. Before its beginning where there is nothing between.
+    /// The end of a window that never extends to the next day's sun: from a clock time to the sunset, or from the
+    /// sunrise to a clock time. It is before the beginning if the window is empty.
     pub(super) fn within_day(&self, place: &Place, date: NaiveDate) -> Result<Option<DateTime<Zone>>, SunError> {
         let ends = match (self.from.time, self.to.time) {
             (TimeOfDay::Clock(..), TimeOfDay::Sunset(_)) | (TimeOfDay::Sunrise(_), TimeOfDay::Clock(..)) => true,
@@ -97,7 +97,7 @@ impl Window {
         ends.then(|| self.to.bound(place, date)).transpose()
     }
 
-    /// Why there is nothing between its beginning and its end on a day.
+    /// Why the window is empty on a day.
     fn why_nothing(&self, day: &Day) -> &'static str {
         match (self.from.time, self.to.time) {
             (TimeOfDay::Clock(..), TimeOfDay::Sunset(_)) => "the sun has set by then",
@@ -106,8 +106,8 @@ impl Window {
         }
     }
 
-    /// The light of a date, from its sunrise to its sunset, each so much later as is asked, where that is what is asked.
-    /// Where the date has no light, noon twice.
+    /// The light of a date with both ends shifted as written, if the window is from sunrise to sunset. Twice noon if
+    /// the date has no light.
     pub(super) fn light(&self, place: &Place, date: NaiveDate) -> Result<Option<[DateTime<Zone>; 2]>, SunError> {
         let (TimeOfDay::Sunrise(after), TimeOfDay::Sunset(later)) = (self.from.time, self.to.time) else {
             return Ok(None);
@@ -132,7 +132,7 @@ impl Window {
     }
 }
 
-/// The date on which a reading lies.
+/// The date of a reading.
 fn date_of(reading: &Reading, date: Option<NaiveDate>) -> Result<NaiveDate, SunError> {
     match (reading.date, date) {
         (Some(own), Some(date)) if own != date => Err(SunError::TwoDates { reading: reading.to_string(), date }),
@@ -142,17 +142,17 @@ fn date_of(reading: &Reading, date: Option<NaiveDate>) -> Result<NaiveDate, SunE
 }
 
 impl SunTrack {
-    /// The instants of a window: from, from + step, …, to, which is added where the last step misses it.
+    /// Returns the instants of a window: from, from + step, …, and always `to`.
     ///
-    /// Weights are the trapezoid rule's in whole seconds; they add up to the window. A time in which the sun rises or sets
-    /// is cut there: its part with a sun counts for the instant with one, the other for the night. Where the sun rises or
-    /// sets more than once between two instants, another one is added in each stretch between.
+    /// Weights are those of the trapezoid rule in whole seconds; they add up to the window's length. An interval with a
+    /// sunrise or sunset is split there: its daylight counts for the instant by day, the rest for the night. If the sun
+    /// rises or sets several times between two instants, an instant is added in each stretch between.
     ///
-    /// Bound to the sun, on a date of polar night, the window is its noon alone.
+    /// If the window is bound to the sun, its only instant in a polar night is noon.
     ///
     /// # Errors
-    /// What [`Window::bounds`] says, a step of 0 or one that makes too many instants,
-    /// and a year outside 1600 to 2999.
+    /// The errors of [`Window::bounds`], a step of 0 or one that makes too many instants, and a year outside 1600 to
+    /// 2999.
     pub fn window(place: &Place, window: &Window, refraction: bool) -> Result<SunTrack, SunError> {
         if window.step_secs == 0 {
             return Err(SunError::ZeroStep);
@@ -183,7 +183,7 @@ impl SunTrack {
         track(place, &[[from, to]], window.step_secs, refraction)
     }
 
-    /// One instant alone, of weight and step 0, in whole seconds.
+    /// A track with a single instant in whole seconds, with weight and step 0.
     ///
     /// # Errors
     /// A year outside 1600 to 2999.
@@ -191,10 +191,10 @@ impl SunTrack {
         track(place, &[[time.trunc_subsecs(0); 2]], 0, refraction)
     }
 
-    /// One instant alone, of weight and step 0. A reading without a date takes `date`.
+    /// A track with a single instant, with weight and step 0. A reading without a date uses `date`.
     ///
     /// # Errors
-    /// No date or two, a reading that is no instant, a year outside 1600 to 2999.
+    /// No date or two dates, a reading that is not an instant, or a year outside 1600 to 2999.
     pub fn at(
         place: &Place,
         reading: &Reading,
@@ -206,7 +206,7 @@ impl SunTrack {
     }
 }
 
-/// From a window's first instant in steps to its last.
+/// The times from a window's first instant in steps to its last.
 fn times([from, to]: [DateTime<Zone>; 2], step_secs: u32) -> Vec<DateTime<Zone>> {
     let (seconds, step) = ((to - from).num_seconds(), i64::from(step_secs.max(1)));
     let mut times: Vec<_> = (0..=seconds / step).map(|index| from + TimeDelta::seconds(index * step)).collect();
@@ -216,10 +216,10 @@ fn times([from, to]: [DateTime<Zone>; 2], step_secs: u32) -> Vec<DateTime<Zone>>
     times
 }
 
-/// A window's instants with their weights, in whole seconds. Two instants share the time between them, and a half second
-/// goes to the later one; where the sun rises or sets there, each has what is as it is: with a sun or without.
+/// A window's instants with their weights in whole seconds. Two instants share the time between them, and a half second
+/// goes to the later one. If the sun rises or sets between them, each gets the time that matches it: day or night.
 fn instants(sky: &Sky<'_>, window: [DateTime<Zone>; 2], step_secs: u32) -> Result<Vec<Instant>, SunError> {
-    // a window is at most ten years, 3.2e8 s
+    // fits: a window is at most ten years, 3.2e8 s
     let secs = |from: DateTime<Zone>, to: DateTime<Zone>| u32::try_from((to - from).num_seconds()).unwrap_or(0);
     let times = times(window, step_secs);
     let mut instants = times.par_iter().map(|time| sky.at(*time)).collect::<Result<Vec<_>, _>>()?;
@@ -246,7 +246,7 @@ fn instants(sky: &Sky<'_>, window: [DateTime<Zone>; 2], step_secs: u32) -> Resul
     Ok(instants)
 }
 
-/// The instants of windows that follow one another; where one ends as the next begins, the instant between them is one.
+/// Joins the instants of consecutive windows. If one ends when the next begins, they share the instant.
 pub(super) fn track(
     place: &Place,
     windows: &[[DateTime<Zone>; 2]],

@@ -8,12 +8,12 @@ use jiff::Timestamp;
 use jiff::tz::{AmbiguousOffset, Offset as JiffOffset};
 use std::fmt;
 
-/// A zone of the IANA Time Zone Database, in the form that [`chrono::DateTime`] takes. After the last known change its
+/// A zone of the IANA Time Zone Database, in the form that [`chrono::DateTime`] uses. After the last known change its
 /// clock follows the last rule.
 #[derive(Clone, Copy)]
 pub struct Zone(&'static ZoneData);
 
-/// What is known of a zone.
+/// The data of a zone.
 pub(super) struct ZoneData {
     name: String,
     version: TzVersion,
@@ -21,7 +21,7 @@ pub(super) struct ZoneData {
 }
 
 impl ZoneData {
-    /// The rules of a compiled file (TZif, RFC 9636); nothing where it is none.
+    /// Reads the rules in a compiled file (TZif, RFC 9636); `None` if it is not one.
     pub(super) fn read(name: &str, version: TzVersion, file: &[u8]) -> Option<ZoneData> {
         Some(ZoneData { name: name.to_owned(), version, rules: jiff::tz::TimeZone::tzif(name, file).ok()? })
     }
@@ -38,17 +38,17 @@ impl fmt::Debug for ZoneData {
 pub struct ZoneOffset {
     zone: Zone,
     fixed: FixedOffset,
-    /// Seconds since 1970, for the letters that the clock has there.
+    /// Seconds since 1970, to find the zone's abbreviation.
     at: i64,
 }
 
-/// Where clocks jump over local times.
+/// A jump of the clock, which skips local times.
 pub(super) struct Jump {
     /// The first instant after it, UTC.
     pub(super) at: NaiveDateTime,
-    /// The offset until then.
+    /// The offset before it.
     pub(super) before: FixedOffset,
-    /// The offset from then on.
+    /// The offset after it.
     pub(super) after: FixedOffset,
 }
 
@@ -62,7 +62,7 @@ impl Zone {
         &self.0.name
     }
 
-    /// The release of the database from which its rules come.
+    /// The release of the database that its rules are from.
     pub fn version(self) -> &'static TzVersion {
         &self.0.version
     }
@@ -72,29 +72,28 @@ impl Zone {
         self.0.rules.preceding(Timestamp::MAX).next().is_none()
     }
 
-    /// A note on a time for which the clock is a guess: more than a year after the release of its rules, counted from
-    /// the end of the release's year, since a release has no other date. There is none for earlier times, nor for an
-    /// offset that no government can change.
+    /// Returns a note if the clock at a time is a guess: more than a year after the release of its rules, counted from
+    /// the end of the release's year, since a release has no other date. Fixed offsets are never doubted.
     pub fn doubt(time: &DateTime<Zone>) -> Option<String> {
         let (zone, year) = (time.timezone(), time.year());
         let version = zone.version();
         (year > version.year() + 1 && !zone.is_fixed()).then(|| {
             format!(
-                "{year} is more than a year after tz {version}, by whose rules the clock of {zone} goes on; governments \
-                 may have changed it since"
+                "{year} is more than a year after tz {version}, whose rules are used for the clock of {zone}; governments \
+                 may have changed them since"
             )
         })
     }
 
-    /// The instants at which the clock shows a local time, the earlier first: two where it is set back, else one twice.
-    /// Or the jump that leaves it out.
+    /// The instants at which the clock shows a local time, the earlier first: two if it is set back, otherwise the same
+    /// one twice. `Err` with the jump if the time is skipped.
     pub(super) fn readings(self, local: NaiveDateTime) -> Result<[DateTime<Zone>; 2], Jump> {
         let by = |offset| self.from_utc_datetime(&(local - delta(offset)));
         match self.offsets(local) {
             AmbiguousOffset::Unambiguous { offset } => Ok([by(offset); 2]),
             AmbiguousOffset::Fold { before, after } => Ok([by(before), by(after)]),
             AmbiguousOffset::Gap { before, after } => {
-                // the clock that is to come shows it before the jump
+                // with the later offset, the time is before the jump
                 let mut later = self.0.rules.following(timestamp(local - delta(after)));
                 let at = later.find(|change| change.offset() == after).map(|change| change.timestamp().as_second());
                 let at = at.and_then(|secs| DateTime::from_timestamp(secs, 0)).map(|time| time.naive_utc());
@@ -103,7 +102,7 @@ impl Zone {
         }
     }
 
-    /// What the clock is ahead of UTC when it shows a local time.
+    /// The offset of the clock when it shows a local time.
     fn offsets(self, local: NaiveDateTime) -> AmbiguousOffset {
         self.0.rules.to_ambiguous_timestamp(JiffOffset::UTC.to_datetime(timestamp(local))).offset()
     }
@@ -168,7 +167,7 @@ impl Offset for ZoneOffset {
     }
 }
 
-/// The letters of the clock: `CEST`, or `+03` where people have none.
+/// The zone's abbreviation: `CEST`, or `+03` if it has none.
 impl fmt::Display for ZoneOffset {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.zone.0.rules.to_offset_info(seconds(self.at)).abbreviation())
@@ -185,7 +184,7 @@ fn timestamp(time: NaiveDateTime) -> Timestamp {
     seconds(time.and_utc().timestamp())
 }
 
-/// Years beyond ±9999, which nobody computes a sun for, have the offsets of the last that jiff takes.
+/// Years beyond jiff's range use the offsets of its last year; no sun is computed for them.
 fn seconds(since_1970: i64) -> Timestamp {
     let taken = since_1970.clamp(Timestamp::MIN.as_second(), Timestamp::MAX.as_second());
     Timestamp::from_second(taken).unwrap_or_default()
@@ -195,7 +194,7 @@ fn delta(offset: JiffOffset) -> TimeDelta {
     TimeDelta::seconds(offset.seconds().into())
 }
 
-/// Both are within a day or, in jiff, little more; no zone's is.
+/// Cannot fail for a zone of the database: offsets are within a day.
 fn fixed(offset: JiffOffset) -> FixedOffset {
     FixedOffset::east_opt(offset.seconds()).unwrap_or(chrono::Utc.fix())
 }

@@ -1,7 +1,7 @@
-//! How two masks differ, in the terms of the definitions: at shadow edges, and elsewhere.
+//! How two masks differ, at shadow edges and elsewhere.
 //!
-//! An *edge cell* is one whose 3 × 3 neighbourhood in the truth is not uniform. There a rasteriser may differ a little,
-//! since it rounds corners to 1/256 of a cell. Elsewhere it may not, except beside what is thinner than a cell.
+//! An *edge cell* is one whose 3 × 3 neighbourhood in the truth is not uniform. There a rasteriser may differ slightly,
+//! since it rounds corners to 1/256 of a cell. Elsewhere it may not, except next to things thinner than a cell.
 
 use super::is_edge_cell;
 use crate::shadow::ray_cast::RayCast;
@@ -73,8 +73,8 @@ impl Difference {
         at.extend(differs_at);
     }
 
-    /// Removes the other cells in which a shadow or a sunlit spot thinner than a cell lies: in the truth, cast again in
-    /// finer cells, their neighbourhood is not uniform. Afterwards `truth` is turned to `view`.
+    /// Removes other cells that contain a shadow or a sunlit spot thinner than a cell: when the truth is cast again in
+    /// finer cells, their neighbourhood is not uniform. Afterwards `truth` is turned back to `view`.
     ///
     /// # Errors
     /// As [`Technique::draw`].

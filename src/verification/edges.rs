@@ -5,15 +5,15 @@ use crate::view::Mask;
 /// The distances of a mask's cells from its shadow edge: from the nearest cell on the other side of half the sun.
 ///
 /// The first half of Meijster, Roerdink and Hesselink, *A general algorithm for computing distance transforms in linear
-/// time* (2000): distances along the columns. The second, along the rows, is left to the few cells that are asked.
+/// time* (2000): distances along the columns. The second, along the rows, is only computed for requested cells.
 pub struct Edges<'a> {
     mask: &'a Mask,
-    /// Per cell, to the nearest cell of its column on the other side; `u32::MAX` where there is none.
+    /// For each cell, the distance to the nearest cell of its column on the other side; `u32::MAX` if there is none.
     along_column: Vec<u32>,
 }
 
 impl Edges<'_> {
-    /// Finds the distances along all columns, down and up.
+    /// Computes the distances along all columns, down and up.
     pub fn of(mask: &Mask) -> Edges<'_> {
         let width = mask.width as usize;
         let mut along_column = vec![u32::MAX; mask.share.len()];

@@ -23,7 +23,7 @@ pub struct Verification {
     pub clean: bool,
     /// The share of the edge cells of an exact technique that may differ.
     pub edge_share: f64,
-    /// The number of points of the sun's disc to which rays were cast.
+    /// The number of points of the sun's disc for ray casting.
     pub sun_samples: u32,
     /// The time of ray casting to the disc, seconds per instant.
     pub disc_secs: f64,
@@ -45,7 +45,7 @@ pub struct ComparedSurfaces {
 }
 
 impl Verification {
-    /// Whether a row holds; `None` if the row decides nothing.
+    /// Whether a row passes; `None` if the row does not decide.
     pub fn row_holds(&self, row: &Row) -> Option<bool> {
         match row.promise {
             Promise::Exact => Some(row.difference.holds(self.edge_share_of(row))),
@@ -60,7 +60,7 @@ impl Verification {
         of_surfaces.map_or(self.edge_share, |surfaces| surfaces.edge_share)
     }
 
-    /// The rows that do not hold.
+    /// The rows that fail.
     pub fn failed(&self) -> impl Iterator<Item = &Row> {
         self.rows.iter().filter(|row| self.row_holds(row) == Some(false))
     }
@@ -71,7 +71,7 @@ impl Verification {
 pub struct Row {
     /// What drew its masks.
     pub drawn: Provenance,
-    /// The truth with which it was compared.
+    /// The truth that it was compared with.
     pub against: Truth,
     /// What it promises.
     pub promise: Promise,
@@ -79,19 +79,19 @@ pub struct Row {
     pub on_surfaces: bool,
     /// The cells that differ: their share is off by more than half the sun.
     pub difference: Difference,
-    /// The number of cells that differ beside what is thinner than a cell; they are not in `difference`.
+    /// The number of cells that differ next to things thinner than a cell; they are not in `difference`.
     pub thin: u64,
-    /// The number of cells that the map decided otherwise than the stencil; they are not in `difference`. Absent
+    /// The number of cells that the map decided differently than the stencil; they are not in `difference`. Absent
     /// without such a map.
     pub missed: Option<u64>,
     /// The greatest distance of a cell that differs from a shadow edge of the truth, in cells; absent if none differs.
     pub furthest: Option<f64>,
-    /// The mean over all cells by which the share is off, 0 to 1.
+    /// The mean error of the share over all cells, 0 to 1.
     pub share_off: f64,
-    /// The hours by which the profile is off; absent if the instants have no weight.
+    /// The error of the profile in hours; absent if the instants have no weight.
     pub hours_off: Option<HoursDifference>,
-    /// The time of an instant until its mask was in memory, seconds. The first instant, which also builds, counts only
-    /// if it is the only one.
+    /// The time of an instant until its mask was in memory, seconds. The first instant, which includes building, counts
+    /// only if it is the only one.
     pub secs: f64,
 }
 

@@ -1,4 +1,4 @@
-//! One technique's masks and times, added up instant by instant.
+//! Sums one technique's masks and times, instant by instant.
 
 use super::{Difference, Edges, HoursDifference, Row};
 use crate::choice::{Promise, Truth};
@@ -7,10 +7,10 @@ use crate::profile::{Provenance, Shaded};
 use crate::shadow::{DrawnMask, ShadowError};
 use crate::view::{Grid, Mask};
 
-/// Masks and times of one technique, added up instant by instant.
+/// The masks and times of one technique, summed instant by instant.
 pub struct Tally {
     sum: Sum,
-    /// How long each instant took, seconds.
+    /// The time of each instant, seconds.
     secs: Vec<f64>,
     difference: Difference,
     thin: u64,
@@ -39,13 +39,13 @@ impl Tally {
     /// Adds a mask that was drawn.
     ///
     /// # Errors
-    /// None for a mask in memory.
+    /// Never, for a mask in memory.
     pub fn draw(&mut self, mask: &Mask, weight_secs: u32, secs: f64) -> Result<(), ShadowError> {
         self.secs.push(secs);
         self.sum.add(&DrawnMask::Memory(mask), weight_secs)
     }
 
-    /// Adds shares that were compared one by one.
+    /// Adds shares that were compared singly.
     pub fn compare<'a>(&mut self, shares: impl IntoIterator<Item = (&'a u8, &'a u8)>) {
         for (share, truth) in shares {
             self.share_off += u64::from(share.abs_diff(*truth));
@@ -63,7 +63,7 @@ impl Tally {
             let furthest = at().filter_map(|&(column, row)| edges.distance(column, row));
             self.furthest = furthest.chain(self.furthest).max_by(f64::total_cmp);
         }
-        // a study's cells would be many, and nobody asks where they lie
+        // positions are not needed, and a study would have many
         self.difference.add(Difference { edge_at: Vec::new(), other_at: Vec::new(), ..difference });
     }
 
@@ -76,15 +76,15 @@ impl Tally {
     /// The sum of all masks that were drawn.
     ///
     /// # Errors
-    /// None for masks in memory.
+    /// Never, for masks in memory.
     pub fn sum(self) -> Result<Shaded, ShadowError> {
         self.sum.finish()
     }
 
-    /// The technique's row. `truth` is the sum of the truth, if instants have a weight.
+    /// The technique's row. `truth` is the sum of the truth, if the instants have weights.
     ///
     /// # Errors
-    /// None for masks in memory.
+    /// Never, for masks in memory.
     pub fn row(
         self,
         drawn: Provenance,

@@ -21,7 +21,7 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// The distance of the near plane, metres. What lies nearer to the eye is not drawn.
+    /// The distance of the near plane, metres. Anything nearer to the eye is not drawn.
     pub const NEAR_M: f64 = 0.05;
 
     /// Rightwards, upwards and forwards in the picture: unit vectors in the world frame.
@@ -37,7 +37,7 @@ impl Camera {
         DVec2::new(half_height * f64::from(self.width) / f64::from(self.height), half_height)
     }
 
-    /// A side, with the same point in the middle, and as much of it as the perspective shows there.
+    /// The view of a side with the same middle point and the same extent as the perspective there.
     pub fn side(&self, side: Side) -> Elevation {
         let Camera { target, width, height, .. } = *self;
         let cell = 2.0 * (self.eye - target).length() * (self.fov_rad / 2.0).tan() / f64::from(height);
@@ -49,7 +49,7 @@ impl Camera {
         self.lens().direction(column, row)
     }
 
-    /// What the directions of all pixels share.
+    /// The part of the computation that all pixels share.
     #[doc(hidden)]
     pub fn lens(&self) -> Lens {
         Lens {

@@ -1,6 +1,6 @@
-//! How much work counting shadow volumes takes, cell by cell.
+//! The work of counting shadow volumes, cell by cell.
 
-/// What decided a cell's share, where the map decides some cells and the volumes the others.
+/// What decided a cell's share, if a map decides some cells and volumes the others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Decider {
     /// The map, and the cell is in shadow.
@@ -13,17 +13,17 @@ pub enum Decider {
     VolumeLight,
 }
 
-/// How much work counting shadow volumes takes at one instant.
+/// The work of counting shadow volumes at one instant.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FragmentCounts {
     /// Columns.
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// For each cell, how many fragments of walls and caps reach the count, row 0 first.
+    /// For each cell, the number of fragments of walls and caps that reach the count, row 0 first.
     pub reached: Vec<u32>,
-    /// How many fragments would reach it in all cells together without the mask.
+    /// The number of fragments that would reach it in all cells without the mask.
     pub all: u64,
-    /// What decided each cell, if the map decided some.
+    /// What decided each cell, if a map decided some.
     pub decided: Option<Vec<Decider>>,
 }

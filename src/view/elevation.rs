@@ -15,15 +15,15 @@ pub enum Side {
     West,
 }
 
-/// What stays free on both sides of all that a side shows, below it and above it, a share of the picture.
+/// The margin on all sides of what a side shows, as a share of the picture.
 const BESIDE: f64 = 0.04;
 const BELOW: f64 = 0.16;
 const ABOVE: f64 = 0.10;
-/// The least that a side shows from foot to head, metres.
+/// The least height of a side's picture, metres.
 const LEAST: f64 = 0.1;
 
 impl Side {
-    /// The level unit vector towards the viewer.
+    /// The horizontal unit vector towards the viewer.
     pub fn to_viewer(self) -> DVec3 {
         match self {
             Side::North => DVec3::Y,
@@ -33,8 +33,8 @@ impl Side {
         }
     }
 
-    /// The middle of a picture with that proportion that contains the whole box, and the height that it shows, metres.
-    /// The box stands low in it: below the ground's line there is only cut earth.
+    /// The middle and the height in metres of a picture with that aspect ratio that contains the whole box. The box is
+    /// low in it: below the ground's line there is only cut earth.
     pub fn around(self, (low, high): (DVec3, DVec3), width_by_height: f64) -> (DVec3, f64) {
         let size = high - low;
         let width = size.dot(self.right().abs()) / (1.0 - 2.0 * BESIDE);
@@ -42,7 +42,7 @@ impl Side {
         (((low + high) / 2.0).with_z(low.z + height * (0.5 - BELOW)), height)
     }
 
-    /// How much a picture of that proportion about a point must show from foot to head, metres, to hold a box whole.
+    /// The least height, metres, of a picture with that aspect ratio about a point that contains the whole box.
     pub(crate) fn height_about(self, middle: DVec3, (low, high): (DVec3, DVec3), width_by_height: f64) -> f64 {
         let [low, high] = [low - middle, high - middle];
         let aside = low.dot(self.right()).abs().max(high.dot(self.right()).abs());

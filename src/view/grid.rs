@@ -35,8 +35,8 @@ impl Grid {
         [self.west, self.south(), self.east(), self.north]
     }
 
-    /// From columns and rows to metres, in GDAL's order: x = t₀ + column · t₁ + row · t₂, y = t₃ + column · t₄ + row ·
-    /// t₅. Columns count from the west edge, rows from the north edge.
+    /// The transform from columns and rows to metres, in GDAL's order: x = t₀ + column · t₁ + row · t₂, y = t₃ + column
+    /// · t₄ + row · t₅. Columns count from the west edge, rows from the north edge.
     pub fn transform(&self) -> [f64; 6] {
         [self.west, self.cell, 0.0, self.north, 0.0, -self.cell]
     }
@@ -75,7 +75,7 @@ impl Tile {
         *self == self.plan.into()
     }
 
-    /// Its cells as a plan of their own. They lie in the same place except for the rounding of its corner.
+    /// Its cells as a plan of their own. Their positions are the same, except for the rounding of the tile's corner.
     pub fn grid(&self) -> Grid {
         let Tile { plan, first: [column, row], size: [width, height] } = *self;
         let west = plan.west + f64::from(column) * plan.cell;

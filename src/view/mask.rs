@@ -14,7 +14,7 @@ pub struct Mask {
     pub share: Vec<u8>,
 }
 
-/// Which cells are in shadow, for a point-like sun: one bit per cell.
+/// The cells in shadow, for the sun as a point: one bit per cell.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Bits {
     /// Columns.
@@ -26,23 +26,23 @@ pub struct Bits {
     pub words: Vec<u64>,
 }
 
-/// Some cells, of one word of [`Bits::words`].
+/// Some cells within one word of [`Bits::words`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CellWord {
-    /// Which word.
+    /// The index of the word.
     pub word: u32,
     /// Its bits: 1 for each of the cells.
     pub cells: u64,
 }
 
 impl CellWord {
-    /// The row of its cells, and the column of the first of them, where a row has so many words.
+    /// The row of its cells, and the column of the first of them, for rows of `in_row` words.
     pub(crate) fn place(self, in_row: usize) -> (usize, usize) {
         let word = self.word as usize;
         (word / in_row, word % in_row * 64)
     }
 
-    /// The bits, counted from the lowest.
+    /// The indices of the bits, from the lowest.
     pub(crate) fn bits(self) -> impl Iterator<Item = u32> {
         let mut rest = self.cells;
         std::iter::from_fn(move || {
@@ -60,7 +60,7 @@ impl Bits {
         Bits { width, height, words }
     }
 
-    /// The cells of a mask that are in shadow, which see at most half of the sun.
+    /// The cells of a mask that are in shadow: those that see at most half of the sun.
     pub fn of(mask: &Mask) -> Bits {
         let mut bits = Bits::new(mask.width, mask.height);
         let in_row = bits.in_row();
@@ -74,7 +74,7 @@ impl Bits {
         bits
     }
 
-    /// Word by word what becomes of these bits and those of another raster of the same size.
+    /// Combines these bits word by word with those of another raster of the same size.
     pub(crate) fn with(&self, other: &Bits, of: impl Fn(u64, u64) -> u64) -> Bits {
         let words = self.words.iter().zip(&other.words).map(|(one, other)| of(*one, *other)).collect();
         Bits { words, ..*self }
@@ -86,7 +86,7 @@ impl Bits {
         self.words.iter().zip(&other.words).enumerate().map(differ).filter(|word| word.cells != 0).collect()
     }
 
-    /// Puts a tile's cells in their place on the plan. A tile's first column is a multiple of 64.
+    /// Copies a tile's cells to their place on the plan. A tile's first column must be a multiple of 64.
     pub fn paste(&mut self, tile: &Tile, part: &Bits) {
         let [left, top] = tile.first.map(|first| first as usize);
         let in_row = self.in_row();
@@ -96,13 +96,13 @@ impl Bits {
         }
     }
 
-    /// Whether a cell, counted along the rows, is in shadow.
+    /// Whether a cell, by its index in row order, is in shadow.
     pub fn contains(&self, cell: usize) -> bool {
         let (row, column) = (cell / self.width as usize, cell % self.width as usize);
         self.words[row * self.in_row() + column / 64] >> (column % 64) & 1 == 1
     }
 
-    /// Words of a row.
+    /// The number of words in a row.
     pub(crate) fn in_row(&self) -> usize {
         self.width.div_ceil(64) as usize
     }

@@ -1,4 +1,4 @@
-//! What is looked at (a plan, a camera, a side, probes), and what is found there (surfaces and masks).
+//! Views (a plan, a camera, a side, probes), and what is found in them (surfaces and masks).
 //!
 //! A [`View`] is the plan's [`Grid`] of cells, a [`Camera`] or an [`Elevation`]; a [`Probe`] is a single point. Each
 //! cell of a view sees a [`Surface`], and for one sun there is a [`Mask`].

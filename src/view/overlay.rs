@@ -7,15 +7,15 @@ pub struct Overlay {
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// For each cell, how many walls and caps of the shadow volumes lie in front of what is seen, at most 255; if
-    /// wanted.
+    /// For each cell, the number of walls and caps of the shadow volumes in front of what is seen, at most 255; if
+    /// requested.
     pub layers: Option<Vec<u8>>,
-    /// For each cell, how much of it the silhouette's lines cover, in 1/255; if wanted.
+    /// For each cell, the coverage by the silhouette's lines, in 1/255; if requested.
     pub silhouette: Option<Vec<u8>>,
 }
 
 impl Overlay {
-    /// Whether nothing of it is visible.
+    /// Whether nothing in it is visible.
     pub fn is_empty(&self) -> bool {
         [&self.layers, &self.silhouette].into_iter().flatten().flatten().all(|cell| *cell == 0)
     }

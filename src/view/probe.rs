@@ -9,6 +9,6 @@ pub struct Probe {
     pub name: String,
     /// Its position, metres in the world frame.
     pub point: DVec3,
-    /// The unit normal of the plane in which it lies, on the side that is judged. Without one the point is free.
+    /// The unit normal of the plane in which it lies, on the judged side. Without one, the point is free on all sides.
     pub normal: Option<DVec3>,
 }

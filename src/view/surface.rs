@@ -5,7 +5,7 @@ use std::ops::Range;
 /// What each cell of a view sees first, models before ground: of faces that are flush with the
 /// ground, the first.
 ///
-/// Drawn once per study, since it does not depend on the sun. Drawings take roofs and outlines from it.
+/// It is drawn once per study, since it does not depend on the sun. Drawings take roofs and outlines from it.
 #[derive(Clone, Debug)]
 pub struct Surface {
     /// Columns.
@@ -18,9 +18,10 @@ pub struct Surface {
     pub height_m: Vec<f32>,
 }
 
-/// What the cells of a plan see, some rows at a time, so that a drawing of many cells need not hold all of them.
+/// What the cells of a plan see, a few rows at a time, so that a drawing of many cells need not hold them all in
+/// memory.
 pub trait SurfaceRows: Sync {
-    /// How many cells there are.
+    /// The number of cells.
     fn cells(&self) -> usize;
 
     /// What some rows see.

@@ -1,14 +1,14 @@
 //! Volumes as solids for other programs: one for each component, cut at the ground, closed.
 //!
 //! The solid is the sum of the prisms between the casting faces and their shadows on the ground. The faces, turned to
-//! the sun, are its light cap; the same faces, projected along the sun onto the ground, are its dark cap; walls hang
-//! where the directions of the faces at an edge do not cancel. It is closed in that signed sense whatever the mesh, and
-//! it may overlap itself: how often it winds around a point is how many casting faces lie between the point and the
+//! the sun, are its light cap; the same faces, projected along the sun onto the ground, are its dark cap; there are
+//! walls where the directions of the faces at an edge do not cancel. It is closed in that signed sense whatever the
+//! mesh, and may overlap itself: its winding number at a point is the number of casting faces between the point and the
 //! sun.
 //!
-//! A closed, well-wound component needs only the half of its faces through which rays from inside leave to the sun.
-//! Then most points are covered once, not twice, and the building itself is in the solid. In all other components every
-//! face casts.
+//! A closed, well-wound component needs only that half of its faces through which rays from inside leave towards the
+//! sun. Then most points are covered once, not twice, and the building itself is part of the solid. In all other
+//! components every face casts.
 
 use super::Volume;
 use crate::mesh::{Component, Mesh};
@@ -19,15 +19,15 @@ use rustc_hash::FxHashMap;
 /// The volume of one component.
 #[derive(Clone, Debug)]
 pub struct Solid {
-    /// Whose volume: an index of the mesh's components.
+    /// The index of the component in the mesh.
     pub component: usize,
     /// World position of the local origin, whole metres near the caster, so that far sites keep their precision.
     pub origin: DVec3,
-    /// Metres around `origin` in the world's axes, no two alike.
+    /// Distinct positions, metres relative to `origin` in the world's axes.
     pub vertices: Vec<Vec3>,
     /// Counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
-    /// How far over the ground the longest shadow reaches from the point that casts it, metres.
+    /// The greatest horizontal length of its shadow, metres.
     pub length_m: f64,
 }
 
@@ -36,32 +36,32 @@ pub struct Solid {
 pub struct Solids {
     /// In the components' order.
     pub solids: Vec<Solid>,
-    /// How many casting components have none: they lie below the ground, or edge-on to the sun.
+    /// The number of casting components without a solid: they are below the ground, or edge-on to the sun.
     pub left_out: usize,
 }
 
 /// Why there are no solids.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SolidError {
-    /// Shadows do not end.
+    /// The sun is not above the horizon, so shadows do not end.
     #[error("the sun is not above the horizon, so no shadow ends on the ground; ask for another time")]
     NoSun,
-    /// Already the casting faces would fill a file.
-    #[error("{0} triangles cast, and a GLB file ends at 4 GiB; let fewer parts cast with `casts`")]
+    /// There are too many casting faces for a file.
+    #[error("{0} triangles cast, which exceeds the 4 GiB of a GLB file; let fewer parts cast with `casts`")]
     TooLarge(usize),
 }
 
-/// The most casting faces of which a file can hold the volumes, by the bytes of one cap of half of them; vertices can
-/// then be counted in 32 bits, too.
+/// The most casting faces whose volumes may fit in a file, by the bytes of one cap of half of them. Vertices can then
+/// be counted in 32 bits, too.
 const MOST_CASTING: usize = u32::MAX as usize / 12;
 
-/// A face whose plane is so near to the sun (sine of the angle) throws no shadow.
+/// The sine of the angle between a face's plane and the sun below which the face has no shadow.
 const EDGE_ON: f64 = 1e-9;
 
 /// The volumes of the components that cast, between them and a ground plane at this height, metres.
 ///
 /// # Errors
-/// [`SolidError`], before memory is taken.
+/// [`SolidError`], before memory is allocated.
 pub fn solids(mesh: &Mesh, casts: &[bool], to_sun: DVec3, ground: f64) -> Result<Solids, SolidError> {
     let along = -to_sun / to_sun.z;
     if !(to_sun.z > 0.0 && along.is_finite()) {
@@ -93,8 +93,8 @@ pub fn solids(mesh: &Mesh, casts: &[bool], to_sun: DVec3, ground: f64) -> Result
     Ok(Solids { left_out: casting.len() - solids.len(), solids })
 }
 
-/// Which faces alone are enough: those that face the sun (`true`) where the component is closed, well wound and not
-/// inside out, those that do not where it is inside out. None where all are needed.
+/// Which half of the faces is enough: those that face the sun (`true`) if the component is closed, well wound and not
+/// inside out, the others if it is inside out. `None` if all are needed.
 fn half_that_casts(mesh: &Mesh, component: &Component) -> Option<bool> {
     let paired = |edge: u32| match mesh.faces_at(edge as usize) {
         [one, other] => one.direction() + other.direction() == 0,
@@ -103,7 +103,7 @@ fn half_that_casts(mesh: &Mesh, component: &Component) -> Option<bool> {
     if component.faces.is_empty() || !component.edges.clone().all(paired) {
         return None;
     }
-    // around one of its own corners, where the tetrahedra are small
+    // relative to one of its own corners, where the tetrahedra are small
     let around = mesh.corners(component.faces.start as usize)[0].as_dvec3();
     let tetrahedron = |face: u32| {
         let [a, b, c] = mesh.corners(face as usize).map(|corner| corner.as_dvec3() - around);
@@ -112,11 +112,11 @@ fn half_that_casts(mesh: &Mesh, component: &Component) -> Option<bool> {
     Some(component.faces.clone().map(tetrahedron).sum::<f64>() >= 0.0)
 }
 
-/// Faces turned to the sun, cut at the ground. What is cut at one edge is cut in one point.
+/// Faces turned to the sun, cut at the ground. An edge is always cut at the same point.
 struct CutFaces<'a> {
     mesh: &'a Mesh,
     ground: f64,
-    /// In the world frame, none below the ground.
+    /// In the world frame; none is below the ground.
     points: Vec<DVec3>,
     of_vertex: FxHashMap<u32, u32>,
     of_edge: FxHashMap<[u32; 2], u32>,
@@ -129,7 +129,7 @@ impl<'a> CutFaces<'a> {
         CutFaces { mesh, ground, points: Vec::new(), of_vertex, of_edge, triangles: Vec::new() }
     }
 
-    /// Adds what of a face is above the ground; a face in the ground throws no shadow on it.
+    /// Adds the part of a face above the ground; a face in the ground's plane has no shadow on it.
     fn add(&mut self, face: [u32; 3]) {
         let heights = face.map(|vertex| self.height(vertex));
         if heights.iter().all(|&height| height <= 0.0) {
@@ -165,7 +165,7 @@ impl<'a> CutFaces<'a> {
         *self.of_vertex.entry(vertex).or_insert_with(|| append(&mut self.points, position))
     }
 
-    /// Where an edge goes through the ground, the same whichever face asks.
+    /// The vertex where an edge crosses the ground, the same for all of its faces.
     fn section(&mut self, [from, to]: [u32; 2]) -> u32 {
         let edge = [from.min(to), from.max(to)];
         let [low, high] = edge.map(|vertex| self.world(vertex));
@@ -174,7 +174,7 @@ impl<'a> CutFaces<'a> {
         *self.of_edge.entry(edge).or_insert_with(|| append(&mut self.points, position))
     }
 
-    /// Caps and walls, or nothing where nothing is above the ground. `along` leads a metre down along the sun's rays.
+    /// The solid; `None` if nothing is above the ground. `along` is the sun's ray for one metre of height.
     fn solid(self, component: usize, along: DVec3) -> Option<Solid> {
         if self.triangles.is_empty() {
             return None;
@@ -183,7 +183,7 @@ impl<'a> CutFaces<'a> {
             .points
             .iter()
             .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), &point| (low.min(point), high.max(point)));
-        // of the near end, which is looked at closely; a number that `f32` holds, as files keep it
+        // near the caster, which is inspected closely, and exact in `f32`, as files store it
         let origin = ((low + high) / 2.0).with_z(self.ground).round().as_vec3().as_dvec3();
         let mut rounded = RoundedPoints::default();
         let near: Vec<u32> = self.points.iter().map(|&point| rounded.vertex(point - origin)).collect();
@@ -206,7 +206,7 @@ fn append(points: &mut Vec<DVec3>, point: DVec3) -> u32 {
     points.len() as u32 - 1
 }
 
-/// The edges at which the directions of the triangles do not cancel, each as often as their sum says.
+/// The edges at which the directions of the triangles do not cancel, repeated by their sum.
 fn borders(triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
     summed(triangles.iter().flat_map(|&[a, b, c]| {
         [[a, b], [b, c], [c, a]].map(|[from, to]| ([from.min(to), from.max(to)], if from < to { 1 } else { -1 }))
@@ -219,8 +219,8 @@ fn borders(triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
     .collect()
 }
 
-/// Without the triangles of which rounding made two corners one, and without pairs that lie on each other back to back:
-/// neither encloses anything, and at each edge the sum of directions stays.
+/// Removes triangles with two equal corners after rounding, and pairs of opposite triangles: neither encloses anything,
+/// and the sum of directions at each edge stays the same.
 fn without_nothing(triangles: impl Iterator<Item = [u32; 3]>) -> Vec<[u32; 3]> {
     let signed = triangles.filter(|[a, b, c]| a != b && b != c && c != a).map(|[a, b, c]| {
         let mut sorted = [a, b, c];
@@ -237,7 +237,7 @@ fn without_nothing(triangles: impl Iterator<Item = [u32; 3]>) -> Vec<[u32; 3]> {
         .collect()
 }
 
-/// Each key once, in order, with the sum of its signs where that is not 0.
+/// The distinct keys in order, with the sums of their signs that are not 0.
 fn summed<K: Ord>(signed: impl Iterator<Item = (K, i32)>) -> Vec<(K, i32)> {
     let mut all: Vec<(K, i32)> = signed.collect();
     all.sort_unstable_by(|one, other| one.0.cmp(&other.0));
@@ -250,7 +250,7 @@ fn summed<K: Ord>(signed: impl Iterator<Item = (K, i32)>) -> Vec<(K, i32)> {
     all
 }
 
-/// Points as `f32`; those that become equal are one vertex.
+/// Points rounded to `f32`; equal ones are one vertex.
 #[derive(Default)]
 struct RoundedPoints {
     vertices: Vec<Vec3>,
@@ -266,7 +266,7 @@ impl RoundedPoints {
         })
     }
 
-    /// The triangles, and the vertices that they have.
+    /// The triangles, with the vertices that they use.
     fn solid(self, mut triangles: Vec<[u32; 3]>) -> (Vec<Vec3>, Vec<[u32; 3]>) {
         let mut vertices = Vec::new();
         let mut kept = vec![u32::MAX; self.vertices.len()];

@@ -39,7 +39,7 @@ fn far_years_are_noted_once_and_reports_name_the_rules() {
     std::fs::write(folder.path().join("site.toml"), &text).unwrap();
     std::fs::write(folder.path().join("open.toml"), text.replace("tower.glb", "open.glb")).unwrap();
     let note = format!(
-        "2100 is more than a year after tz {}, by whose rules the clock of Europe/Paris goes on; governments may have \
+        "2100 is more than a year after tz {}, whose rules are used for the clock of Europe/Paris; governments may have \
          changed it since",
         version()
     );
@@ -94,7 +94,7 @@ fn zones_that_are_none_are_told_in_a_line() {
     let folder = site();
     let text = std::fs::read_to_string(folder.path().join("site.toml")).unwrap();
     for (zone, words) in [
-        ("+02:00", ["time_zone", "Etc/GMT-2", "turns the sign round", "Europe/Paris"]),
+        ("+02:00", ["time_zone", "Etc/GMT-2", "has the opposite sign", "Europe/Paris"]),
         ("Munich", ["\"Munich\"", "[place]", "leave time_zone out", "Europe/Paris"]),
     ] {
         let named = text.replace("[[model]]", &format!("time_zone = \"{zone}\"\n[[model]]"));

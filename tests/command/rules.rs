@@ -15,9 +15,9 @@ fn rules_are_listed_with_what_they_rest_on() {
     }
     for part in [
         "check with your authority",
-        "option hours: 2h or 3h [must be said]",
+        "option hours: 2h or 3h [required]",
         "option loss: both or either [default: both]",
-        "option above: a number from 0 to 45 or DE (11) [must be said]",
+        "option above: a number from 0 to 45 or DE (11) [required]",
     ] {
         assert!(list.contains(part), "{list}");
     }

@@ -181,7 +181,7 @@ fn change_from_a_kept_state_is_the_engines() {
     again(&mut harness, undo.plus(egui::Modifiers::SHIFT), 2);
     harness.get_by_label("Find the change");
     assert!(harness.query_by_label("The request has changed since: find it again.").is_none());
-    click(&mut harness, "Compare no more");
+    click(&mut harness, "Stop comparing");
     harness.get_by_label("Find the hours");
     assert!(harness.query_by_label("Sun lost and gained").is_none(), "nothing is told of a change any more");
 }

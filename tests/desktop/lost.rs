@@ -200,7 +200,7 @@ fn window_goes_to_the_processor_and_gives_up() {
     for (at, said) in said.iter().enumerate().skip(1) {
         let rest = match at {
             4 => "time and again; the window is drawn on the processor now",
-            8 => "time and again, and no window can be shown; look after its driver",
+            8 => "time and again, and no window can be shown; check its driver",
             _ => "failed (its device was lost); the window was opened again on a new device",
         };
         assert!(said.contains(rest), "{at}: {said}");

@@ -106,7 +106,7 @@ fn time_is_dragged_typed_and_stepped() {
     assert!(harness.query_by_label_contains("governments may").is_none());
     write(&mut harness, "Date", "2100-06-21");
     harness.step();
-    harness.get_by_label_contains("governments may have changed it since");
+    harness.get_by_label_contains("governments may have changed them since");
     harness.get_by_label_contains(&clock);
     write(&mut harness, "Date", "2026-06-21");
     harness.step();

@@ -30,7 +30,7 @@ fn decimal_comma_is_a_decimal_point_in_every_number() {
     assert_eq!(place(&harness).elevation, Some(0.152));
     // what cannot be is no more taken than what cannot be read, and the field says what counts
     for (label, text, told) in [
-        ("scale", "0", "0 is not between 0.000001 and 1000000 metres a unit"),
+        ("scale", "0", "0 is not between 0.000001 and 1000000 metres per unit"),
         ("scale", "1,2,3", "\"1,2,3\" is not a number; write for example 0.5 or 0,5"),
         ("Elevation", "high", "\"high\" is not a number"),
         ("Model north", "400", "400 is not between −360 and 360 degrees"),

@@ -80,7 +80,8 @@ fn damaged_files_are_not_gone_on_with() {
             flip(&path.join(&out).join(&file));
             let told = stderr(&gnomon(path, &asked(&out)));
             assert!(
-                !told.contains("goes on") && told.contains(&format!("{out}/{file} is not what the study left")),
+                !told.contains("continues")
+                    && told.contains(&format!("{out}/{file} was changed since the study was stopped")),
                 "{told}"
             );
             assert!(told.contains("starts over"), "{told}");
@@ -89,7 +90,7 @@ fn damaged_files_are_not_gone_on_with() {
         // and where nothing is, it goes on
         stopped(path, &asked("well"), "40%");
         let told = stderr(&gnomon(path, &asked("well")));
-        assert!(told.contains("goes on where it was stopped") && !told.contains("starts over"), "{told}");
+        assert!(told.contains("continues where it was stopped") && !told.contains("starts over"), "{told}");
         assert!(files(&path.join("well")) == right, "{name}");
         fs::remove_dir_all(path.join("well")).unwrap();
     }
@@ -105,12 +106,15 @@ fn masks_of_another_study_are_not_kept() {
     stopped(path, &study("2026-09-18", "out"), "50%");
     done(path, &study("2026-06-18", "other"));
     let told = stderr(&gnomon(path, &study("2026-09-18", "out")));
-    assert!(told.contains("masks/mask-0000.png is not what the study left") && told.contains("starts over"), "{told}");
+    assert!(
+        told.contains("masks/mask-0000.png was changed since the study was stopped") && told.contains("starts over"),
+        "{told}"
+    );
     assert!(files(&path.join("masks")) == files(&path.join("right-masks")));
     assert!(files(&path.join("out")) == files(&path.join("right")));
     // those beyond a shorter study's are told of
     let told = stderr(&gnomon(path, &study("2026-09-18", "short").replace("1min", "1h")));
-    assert!(told.contains("masks/mask-0007.png and what follows it is of another study"), "{told}");
+    assert!(told.contains("masks/mask-0007.png and the masks after it belong to another study"), "{told}");
     assert!(!stderr(&gnomon(path, &study("2026-09-18", "out"))).contains("of another study"));
 }
 
@@ -129,14 +133,17 @@ fn several_stopped_studies_lie_side_by_side() {
     // a third one is done, says what is there, and leaves it
     let told = stderr(&gnomon(path, &study(dates[2], "out").replace("1min", "1h")));
     assert!(told.contains(".unfinished and another one keep other studies that were stopped"), "{told}");
-    assert!(told.contains("goes on from there when it is asked again") && told.contains("can be removed"), "{told}");
+    assert!(
+        told.contains("continues when the same request is made again") && told.contains("can be removed"),
+        "{told}"
+    );
     assert!(numberless(&path.join("out")).starts_with(&both.map(str::to_owned)[..2]));
     // bits without what their study kept are nobody's
     let orphan = path.join("out/shadow.bits.0123456789abcdef.unfinished");
     fs::write(&orphan, "of a study that was killed").unwrap();
     for (date, others) in dates[..2].iter().zip([1, 0]) {
         let told = stderr(&gnomon(path, &study(date, "out")));
-        assert!(told.contains("goes on where it was stopped"), "{told}");
+        assert!(told.contains("continues where it was stopped"), "{told}");
         assert_eq!(told.matches("keeps another study").count(), others, "{told}");
         assert!(!orphan.exists());
         done(path, &study(date, "alone"));
@@ -161,7 +168,7 @@ fn a_killed_study_goes_on_from_what_it_kept_before() {
     second.kill().unwrap();
     assert!(!second.wait().unwrap().success());
     let told = stderr(&gnomon(path, &asked("out")));
-    assert!(told.contains("goes on where it was stopped"), "{told}");
+    assert!(told.contains("continues where it was stopped"), "{told}");
     done(path, &asked("right"));
     assert!(files(&path.join("out")) == files(&path.join("right")));
 }

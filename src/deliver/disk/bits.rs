@@ -12,7 +12,7 @@
 //!   beyond the row's end are 0.
 //!
 //! The study writes the file instant by instant, for each tile of the plan, under a temporary name beside its final
-//! place, and renames it when it is complete.
+//! one, and renames it when it is complete.
 
 use super::unfinished::bits_path;
 use crate::choice::Receivers;
@@ -43,10 +43,10 @@ struct Header {
     instants: Vec<InstantReport>,
 }
 
-/// The whole file, with the shadows at all instants with a sun.
+/// Encodes the whole file, with the shadows at all instants with a sun.
 ///
 /// # Errors
-/// [`ExportError::Encode`] where the encoder refuses.
+/// [`ExportError::Encode`] if the encoder fails.
 pub fn encode<'a>(
     grid: Grid,
     receivers: Receivers,
@@ -92,10 +92,10 @@ pub struct BitsFile {
 }
 
 impl BitsFile {
-    /// The file of a study in a folder; nothing is written yet.
+    /// The file of a study in a folder. Nothing is written yet.
     ///
     /// # Errors
-    /// [`ExportError::Encode`] where the encoder refuses.
+    /// [`ExportError::Encode`] if the encoder fails.
     pub fn new(
         folder: &Path,
         study: u64,
@@ -124,10 +124,10 @@ impl BitsFile {
         self.size_after(self.count)
     }
 
-    /// Returns an error if the disk has less room than the file needs.
+    /// Checks that the disk has enough room for the file.
     ///
     /// # Errors
-    /// [`ExportError::NoRoom`]; [`ExportError::Write`] where the file system does not say.
+    /// [`ExportError::NoRoom`]; [`ExportError::Write`] if the file system does not report its room.
     pub(crate) fn check_room(&self) -> Result<(), ExportError> {
         file::check_room(&self.path, &self.unfinished, self.size())
     }
@@ -141,11 +141,11 @@ impl BitsFile {
         self.grid.width.div_ceil(8)
     }
 
-    /// Looks for what a stopped study left, and continues with it: with these tiles' cells at these of the instants
-    /// with a sun, in the order of the work. Returns whether its checksum shows that it is what was written.
+    /// Continues the file of a stopped study, which contains these tiles' cells at these of the instants with a sun, in
+    /// the order of the work. Returns whether its checksum matches.
     pub(crate) fn go_on(&mut self, drawn: impl Iterator<Item = (usize, Tile)>, checksum: u64) -> bool {
         let mut drawn = drawn.peekable();
-        // nights alone made no file
+        // a study of nights alone has no file
         if drawn.peek().is_none() {
             self.checksum.add(&self.header);
             return true;
@@ -165,7 +165,7 @@ impl BitsFile {
         let row_bytes = u64::from(self.bytes_a_row());
         for (instant, tile) in drawn {
             let tile_bytes = tile.size[0].div_ceil(8) as usize;
-            // rows that follow each other are read at once
+            // consecutive rows are read at once
             let rows = if tile_bytes as u64 == row_bytes { tile.size[1] } else { 1 };
             bytes.resize(tile_bytes * rows as usize, 0);
             for row in (0..tile.size[1]).step_by(rows as usize) {
@@ -177,10 +177,10 @@ impl BitsFile {
         Ok(checksum)
     }
 
-    /// Begins, or continues with what a stopped study left.
+    /// Begins the file, or continues that of a stopped study.
     ///
     /// # Errors
-    /// [`ExportError::Write`] where the file system refuses.
+    /// [`ExportError::Write`] if the file system fails.
     pub fn begin(&mut self, goes_on: bool) -> Result<(), ExportError> {
         if !goes_on {
             self.checksum = Checksum::default();
@@ -205,10 +205,10 @@ impl BitsFile {
         self.size_after(instant) + u64::from(tile.first[1]) * row_bytes + u64::from(tile.first[0] / 8)
     }
 
-    /// Adds a tile's cells at an instant, which is given by its index among those with a sun.
+    /// Adds a tile's cells at an instant, given by its index among those with a sun.
     ///
     /// # Errors
-    /// [`ExportError::Write`] where the file system refuses.
+    /// [`ExportError::Write`] if the file system fails.
     pub fn add(&mut self, instant: usize, tile: &Tile, bits: &Bits) -> Result<(), ExportError> {
         if self.file.is_none() {
             self.begin(false)?;
@@ -221,7 +221,7 @@ impl BitsFile {
         let mut write = || {
             for (row, words) in bits.words.chunks(bits.in_row()).enumerate() {
                 let at = first + row as u64 * row_bytes;
-                // to seek is to write out what is gathered
+                // seeking flushes the buffer
                 if self.at != at {
                     file.seek(SeekFrom::Start(at))?;
                 }
@@ -237,26 +237,26 @@ impl BitsFile {
         write().map_err(|error| file::failed(&self.path, "writing the file beside it", error))
     }
 
-    /// Makes sure that everything added is on the disk.
+    /// Flushes everything to the disk.
     ///
     /// # Errors
-    /// [`ExportError::Write`] where the file system refuses.
+    /// [`ExportError::Write`] if the file system fails.
     pub fn sync(&mut self) -> Result<(), ExportError> {
         let Some(file) = &mut self.file else { return Ok(()) };
         let synced = file.flush().and_then(|()| file.get_ref().sync_data());
         synced.map_err(|error| file::failed(&self.path, "writing the file beside it", error))
     }
 
-    /// Reads the complete file back, the shadows at the instants with a sun in the order of time, and closes it.
+    /// Reads the complete file back, as the shadows at the instants with a sun in order of time, and closes it.
     ///
     /// # Errors
-    /// [`ExportError::Write`], [`ExportError::Read`] where the file system refuses.
+    /// [`ExportError::Write`] or [`ExportError::Read`] if the file system fails.
     pub(crate) fn shadows(mut self) -> Result<Vec<Bits>, ExportError> {
         if let Some(mut file) = self.file.take() {
             let flushed = file.flush();
             flushed.map_err(|error| file::failed(&self.path, "writing the file beside it", error))?;
         }
-        // nights alone made no file
+        // a study of nights alone has no file
         if self.count == 0 {
             return Ok(Vec::new());
         }
@@ -276,18 +276,18 @@ impl BitsFile {
         read().map_err(|source| ExportError::Read { path: self.unfinished.clone(), source })
     }
 
-    /// Moves the complete file to its final path.
+    /// Renames the complete file to its final path.
     ///
     /// # Errors
-    /// [`ExportError::Write`] where the file system refuses.
+    /// [`ExportError::Write`] if the file system fails.
     pub fn finish(mut self) -> Result<(), ExportError> {
-        // nights alone have a header, too
+        // a study of nights alone has a header, too
         if self.file.is_none() {
             self.begin(false)?;
         }
         let size = self.size();
         if let Some(mut file) = self.file.take() {
-            // what lies beyond is of a study that was stopped, and fits no more
+            // truncates what a stopped study of a different size left
             let whole =
                 file.flush().and_then(|()| file.get_ref().set_len(size)).and_then(|()| file.get_ref().sync_all());
             whole.map_err(|error| file::failed(&self.path, "writing the file beside it", error))?;

@@ -1,5 +1,4 @@
-//! What lies on the disk while a study works in a folder: the lock, what the study has done so far, and the files that
-//! grow as it works.
+//! A study's files on the disk while it works in a folder: the lock, its state, and the files that grow.
 
 pub mod bits;
 pub mod sums;

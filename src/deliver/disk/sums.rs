@@ -1,9 +1,9 @@
-//! `profile.sums.NUMBER.unfinished`: the sums of a study in tiles, which are kept in this file and not in memory while
-//! the study runs.
+//! `profile.sums.NUMBER.unfinished`: the sums of a study in tiles, which are in this file instead of memory while the
+//! study runs.
 //!
-//! The layout: the plan's cells from the north-west, row after row, each its shaded time in 1/255 s, little-endian, in
-//! 4 bytes, or in 8 where the study has more daylight than 32 bits hold. The file contains a tile once all of the
-//! tile's instants are done; what a stopped study had of the next tile is in `profile.NUMBER.unfinished`.
+//! The layout: the plan's cells from the north-west, row by row, each its shaded time in 1/255 s, little-endian, in 4
+//! bytes, or in 8 if the study has more daylight than fits in 32 bits. The file contains a tile once all of the tile's
+//! instants are done; the state of the unfinished tile is in `profile.NUMBER.unfinished`.
 
 use super::unfinished::sums_path;
 use crate::export::checksum::Checksum;
@@ -23,9 +23,9 @@ pub struct SumsFile {
     grid: Grid,
     cell_bytes: u64,
     file: Mutex<File>,
-    /// The checksum of everything put, in the order of the work.
+    /// The checksum of everything written, in the order of the work.
     checksum: Checksum,
-    /// What could not be read.
+    /// The first error of reading.
     fault: Mutex<Option<io::Error>>,
 }
 
@@ -42,8 +42,7 @@ impl SumsFile {
     /// Begins the file of a study.
     ///
     /// # Errors
-    /// [`ExportError::NoRoom`] where the disk has less room than it takes; [`ExportError::Write`] where the file system
-    /// refuses.
+    /// [`ExportError::NoRoom`] if the disk has too little room; [`ExportError::Write`] if the file system fails.
     pub fn begin(folder: &Path, study: u64, grid: Grid, day_secs: u32) -> Result<SumsFile, ExportError> {
         let path = sums_path(folder, study);
         let size = size(&grid, day_secs);
@@ -55,8 +54,7 @@ impl SumsFile {
         Ok(SumsFile::new(path, file, grid, day_secs))
     }
 
-    /// Looks for what a stopped study left with these tiles, and continues with it if its checksum shows that it is
-    /// what was written.
+    /// Continues the file of a stopped study with these finished tiles, if its checksum matches.
     pub(crate) fn go_on(
         folder: &Path,
         study: u64,
@@ -94,7 +92,7 @@ impl SumsFile {
         Ok(checksum)
     }
 
-    /// The checksum of everything put so far.
+    /// The checksum of everything written so far.
     pub fn checksum(&self) -> u64 {
         self.checksum.number()
     }
@@ -105,10 +103,10 @@ impl SumsFile {
         ((top + u64::from(row)) * u64::from(self.grid.width) + left) * self.cell_bytes
     }
 
-    /// Puts a tile's sums into their place in the file.
+    /// Writes a tile's sums at their place in the file.
     ///
     /// # Errors
-    /// [`ExportError::Write`] where the file system refuses.
+    /// [`ExportError::Write`] if the file system fails.
     pub fn put(&mut self, tile: &Tile, shaded: &Shaded) -> Result<(), ExportError> {
         let width = tile.size[0] as usize;
         let mut bytes = Vec::new();
@@ -127,16 +125,16 @@ impl SumsFile {
         Ok(())
     }
 
-    /// Makes sure that everything put is on the disk.
+    /// Flushes everything to the disk.
     ///
     /// # Errors
-    /// [`ExportError::Write`] where the file system refuses.
+    /// [`ExportError::Write`] if the file system fails.
     pub fn sync(&self) -> Result<(), ExportError> {
         let file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
         file.sync_data().map_err(|error| file::failed(&self.path, "writing to it", error))
     }
 
-    /// Returns an error if something could not be read since the file was opened; such cells were taken as 0.
+    /// Returns an error if something could not be read since the file was opened; such cells were read as 0.
     ///
     /// # Errors
     /// [`ExportError::Read`]

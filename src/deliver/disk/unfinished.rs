@@ -1,14 +1,14 @@
-//! What a stopped study leaves in its folder, so that it can continue later.
+//! The state of a stopped study in its folder, from which it can continue later.
 //!
-//! The names of its files contain the study's number. So several stopped studies can lie side by side, and each
-//! continues when the same request is made again: `profile.NUMBER.unfinished`, and where they exist
-//! `shadow.bits.NUMBER.unfinished` and `profile.sums.NUMBER.unfinished`.
+//! The file names contain the study's number, so several stopped studies can exist side by side, and each continues
+//! when the same request is made again: `profile.NUMBER.unfinished`, and if needed `shadow.bits.NUMBER.unfinished` and
+//! `profile.sums.NUMBER.unfinished`.
 //!
 //! The layout of the first, with all numbers little-endian: the line `gnomon unfinished 3`; in 64 bits each the study's
-//! number, how many tiles it has, how many instants are done, how many cells there are, and the bytes of a cell, 4 or
-//! 8; a byte that says which statistics of counting follow: 0 none, 1 without and 2 with cells that a map left to the
-//! volumes; then in 64 bits each those four numbers, the checksums of bits and sums, how many masks are written, and
-//! the checksum of each; the cells; last the checksum of everything before it.
+//! number, the number of its tiles, the number of finished instants, the number of cells, and the bytes of a cell, 4 or
+//! 8; a byte for the statistics of counting that follow: 0 none, 1 without and 2 with cells that a map left to the
+//! volumes; then in 64 bits each those four numbers, the checksums of bits and sums, the number of masks, and the
+//! checksum of each; the cells; last the checksum of everything before it.
 
 use crate::export::checksum::checksum;
 use crate::export::{ExportError, bytes, file};
@@ -21,11 +21,11 @@ use std::path::{Path, PathBuf};
 
 const FIRST_LINE: &[u8] = b"gnomon unfinished 3\n";
 
-/// The beginnings of the names of its files. The first file exists as soon as there is something from which the study
-/// can continue.
+/// The beginnings of the names of its files. The first file exists as soon as there is a state from which the study can
+/// continue.
 const FIRST_WORDS: [&str; 3] = ["profile", "shadow.bits", "profile.sums"];
 
-/// The checksums of a study's other files, as far as the study is done.
+/// The checksums of a study's other files so far.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Checks {
     /// The checksum of its bits.
@@ -36,11 +36,11 @@ pub struct Checks {
     pub masks: Vec<u64>,
 }
 
-/// What was found of a stopped study.
+/// A stopped study's state, if there is one.
 pub enum StoredStudy {
     /// Nothing.
     Nothing,
-    /// A file with at least one byte that is not what was written.
+    /// A file that is not as it was written.
     Damaged,
     /// The complete state.
     Whole(Box<(Unfinished, Checks)>),
@@ -64,7 +64,7 @@ fn file_of(folder: &Path, first_words: &str, study: u64) -> PathBuf {
     folder.join(format!("{first_words}.{study:016x}.unfinished"))
 }
 
-/// Keeps the state. An older file is replaced when the new one is complete.
+/// Writes the state. An older file is replaced when the new one is complete.
 ///
 /// # Errors
 /// As [`file::write`].
@@ -72,10 +72,10 @@ pub fn keep(folder: &Path, unfinished: &Unfinished, checks: &Checks) -> Result<(
     file::write(&path(folder, unfinished.study), &encode(unfinished, checks))
 }
 
-/// The state that was kept of a study.
+/// Reads the state of a study.
 ///
 /// # Errors
-/// [`ExportError::Read`] where there is a file that cannot be read.
+/// [`ExportError::Read`] if there is a file that cannot be read.
 pub fn kept(folder: &Path, study: u64) -> Result<StoredStudy, ExportError> {
     let path = path(folder, study);
     match fs::read(&path) {
@@ -88,23 +88,23 @@ pub fn kept(folder: &Path, study: u64) -> Result<StoredStudy, ExportError> {
     }
 }
 
-/// Removes everything that is kept of a study, when it is done or has to start over.
+/// Removes all files of a study, when it is done or has to start over.
 ///
 /// # Errors
-/// [`ExportError::Write`] where the file system refuses.
+/// [`ExportError::Write`] if the file system fails.
 pub fn remove(folder: &Path, study: u64) -> Result<(), ExportError> {
-    // the first goes first: without it the others are nobody's
+    // the first file goes first: without it the others are ignored
     FIRST_WORDS.iter().try_for_each(|words| file::remove(&file_of(folder, words, study)))
 }
 
-/// Says which other studies were stopped in the folder and keep files there. Bits and sums that no study can continue
-/// with, because it was killed before it kept anything, are removed. The caller has locked the folder.
+/// Notes which other stopped studies have files in the folder. Removes bits and sums without a state, left by a study
+/// that was killed. The caller must have locked the folder.
 pub(crate) fn tidy(folder: &Path, studies: &[u64]) -> Option<String> {
     file::remove_leftovers(&studies.iter().map(|study| path(folder, *study)).collect::<Vec<_>>());
     let others = studies_in(folder).into_iter().filter(|other| !studies.contains(other));
     let (stopped, dead): (Vec<u64>, Vec<u64>) = others.partition(|other| path(folder, *other).is_file());
     for other in dead {
-        // nothing is lost where they stay
+        // nothing is lost if they remain
         let _ = remove(folder, other);
     }
     let first = path(folder, *stopped.first()?);
@@ -116,25 +116,25 @@ pub(crate) fn tidy(folder: &Path, studies: &[u64]) -> Option<String> {
         many => (format!(" and {} more", many - 1), "keep other studies that were stopped", "Each", "files"),
     };
     Some(format!(
-        "{}{others} {keep}, or this one as it was asked otherwise ({size}). {it} goes on from there when it is asked again; \
-         where nobody will ask, the {file} can be removed",
+        "{}{others} {keep}, or this one with a different request ({size}). {it} continues when the same request is made again; \
+         if that is not needed, the {file} can be removed",
         first.display()
     ))
 }
 
-/// Removes the files of all stopped studies in a folder except the newest ones. The caller has locked the folder.
+/// Removes the files of all stopped studies in a folder except the newest ones. The caller must have locked the folder.
 pub(crate) fn keep_newest(folder: &Path, most: usize) {
     let mut studies: Vec<u64> = studies_in(folder).into_iter().collect();
-    // what is dead has no time, and is the oldest
+    // files without a state have no time, and count as the oldest
     let changed = |study: &u64| path(folder, *study).metadata().and_then(|found| found.modified()).ok();
     studies.sort_by_cached_key(|study| Reverse(changed(study)));
     for study in studies.into_iter().skip(most) {
-        // nothing is lost where they stay
+        // nothing is lost if they remain
         let _ = remove(folder, study);
     }
 }
 
-/// The studies that have files in a folder. Folders that cannot be listed are not touched.
+/// The studies that have files in a folder; empty if the folder cannot be listed.
 fn studies_in(folder: &Path) -> BTreeSet<u64> {
     let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let Ok(entries) = fs::read_dir(here) else { return BTreeSet::new() };
@@ -207,7 +207,7 @@ fn decode(bytes: &[u8]) -> Option<(Unfinished, Checks)> {
     Some((Unfinished { study, tiles, done, shaded, statistics }, Checks { bits, sums, masks }))
 }
 
-/// Takes the first numbers off the bytes.
+/// Takes the first numbers from the bytes.
 fn numbers<const N: usize>(rest: &mut &[u8]) -> Option<[u64; N]> {
     let mut numbers = [0; N];
     for number in &mut numbers {

@@ -1,11 +1,10 @@
-//! The folders in which a study works. They are locked meanwhile, so that no two studies write their files there at
-//! once.
+//! The folders in which a study works. They are locked, so that no two studies write their files there at once.
 //!
-//! The lock is the system's own, on the open file `.gnomon.lock`. The system drops it when the process ends, however
-//! that happens, so a file that a crash left behind locks nobody out. Where a disk does not support locks the study
-//! continues, and a note says so.
+//! The lock is the operating system's, on the open file `.gnomon.lock`. The system drops it when the process ends,
+//! however that happens, so a file that a crash left behind locks nobody out. If a disk does not support locks, the
+//! study continues, and a note says so.
 //!
-//! A process that is done removes the file while it still holds the lock. Another process may have opened the file just
+//! A finished process removes the file while it still holds the lock. Another process may have opened the file just
 //! before; it then gets the lock of a file that no longer has a name, while a third process creates a new file. So a
 //! lock counts only if its path still leads to the locked file; otherwise the process tries again. Two processes never
 //! hold the same folder.
@@ -18,7 +17,7 @@ use std::io::{self, ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
 const NAME: &str = ".gnomon.lock";
-/// How often a folder may become free and be taken again while a process tries to lock it.
+/// The number of times that a folder may become free and be taken again while a process tries to lock it.
 const ATTEMPTS: usize = 100;
 /// The greatest length of the text that says who works in a folder, bytes.
 const MOST_BYTES: u64 = 500;
@@ -26,7 +25,7 @@ const MOST_BYTES: u64 = 500;
 /// Folders that are locked until this is dropped.
 pub struct Workplace {
     held: Vec<FolderLock>,
-    /// The folders on disks without locks, and the system's message for each.
+    /// The folders on disks without locks, with the system's message for each.
     unlocked: Vec<(PathBuf, io::Error)>,
 }
 
@@ -37,12 +36,11 @@ struct FolderLock {
 }
 
 impl Workplace {
-    /// Creates the folders, makes sure that files can be written there, and locks them; removes half-written outputs of
+    /// Creates the folders, checks that files can be written there, and locks them. Removes half-written outputs of
     /// dead processes. Other processes can read that `who` works there: a command, or a window.
     ///
     /// # Errors
-    /// [`ExportError::Busy`] where another study works in one of them; [`ExportError::Write`] where the file system
-    /// refuses.
+    /// [`ExportError::Busy`] if another study works in one of them; [`ExportError::Write`] if the file system fails.
     pub fn take<'a>(
         folders: impl IntoIterator<Item = &'a Path>,
         outputs: &[PathBuf],
@@ -72,12 +70,12 @@ impl Workplace {
     pub fn note(&self) -> Option<String> {
         let (folder, error) = self.unlocked.first()?;
         Some(format!(
-            "{}: its disk knows no locks ({error}); see to it that no other study is written there meanwhile",
+            "{}: its disk does not support locks ({error}); make sure that no other study writes there meanwhile",
             folder.display()
         ))
     }
 
-    /// Returns an error if a folder is no longer the one that was locked.
+    /// Checks that the folders are still those that were locked.
     ///
     /// # Errors
     /// [`ExportError::Lost`]
@@ -92,9 +90,9 @@ impl Workplace {
 impl Drop for FolderLock {
     fn drop(&mut self) {
         let path = self.folder.join(NAME);
-        // where somebody has replaced the folder, the file there belongs to another process
+        // if the folder was replaced, the file there belongs to another process
         if is_at(&self.file, &path) {
-            // what stays bars nobody
+            // a file that remains locks nobody out
             let _ = fs::remove_file(path);
         }
     }
@@ -112,12 +110,12 @@ fn lock(folder: &Path, asked: &Path, who: &str) -> Result<io::Result<File>, Expo
             Err(TryLockError::WouldBlock) => return Err(busy(asked, &path)),
             Err(TryLockError::Error(error)) => {
                 drop(file);
-                // it would say that somebody works there, for ever
+                // it would say for ever that somebody works there
                 let _ = fs::remove_file(&path);
                 return Ok(Err(error));
             }
         }
-        // another user's, left by a crash: one of our own takes its place
+        // another user's file, left by a crash, is replaced by one of our own
         if !is_ours && fs::remove_file(&path).is_ok() {
             continue;
         }
@@ -132,9 +130,9 @@ fn lock(folder: &Path, asked: &Path, who: &str) -> Result<io::Result<File>, Expo
     Err(busy(asked, &path))
 }
 
-/// The file, and whether it can be written to.
+/// Opens the file. Returns whether it can be written to, too.
 fn open(path: &Path) -> io::Result<(File, bool)> {
-    // what a link leads to is not ours to be written to
+    // the target of a link is not ours to write to
     if path.symlink_metadata().is_ok_and(|found| !found.is_file()) {
         return Err(io::Error::new(ErrorKind::AlreadyExists, format!("{} is not a file", path.display())));
     }
@@ -152,7 +150,7 @@ fn is_at(file: &File, path: &Path) -> bool {
     handle.is_ok_and(|handle| Handle::from_path(path).is_ok_and(|found| found == handle))
 }
 
-/// The error that says who works there, as far as that can be read: on Windows nobody can read a locked file.
+/// The error that says who works there, if that can be read: on Windows a locked file cannot.
 fn busy(folder: &Path, path: &Path) -> ExportError {
     let mut text = Vec::new();
     let file = OpenOptions::new().read(true).open(path);

@@ -1,4 +1,4 @@
-//! Writes the hours that were found into their files.
+//! Writes computed hours to their files.
 
 use super::hours::{Hours, Range};
 use super::request::{DRAWING, ProfileRequest, RASTER, REPORT};
@@ -24,7 +24,7 @@ pub(super) struct Pieces {
     pub(super) range: Range,
 }
 
-/// Makes the requested files; bits are those of the outlines. `stage` is called for each stage, and may end the work.
+/// Makes the requested files; `bits` are for the outlines. `stage` is called for each stage, and may end the work.
 pub(super) fn make(
     site: &Site,
     hours: &Hours,
@@ -38,7 +38,7 @@ pub(super) fn make(
     let scene = || figure_context(site, DrawnView { receivers: site.receivers, surface: &*surface, mesh, drawn });
     let picture = || asked.drawing.then(|| timed("picture", || figure::profile(&scene(), profile)));
     let raster = || asked.raster.then(|| timed("raster", || raster_of(site, hours, open)));
-    // much of either is for one processor alone
+    // much of both runs on a single processor
     let (picture, raster) = rayon::join(picture, raster);
     let mut files = Vec::new();
     if let Some((bytes, timing)) = picture {
@@ -67,7 +67,7 @@ pub(super) fn make(
     let (notes, statistics) = (&[&site.notes[..], &hours.notes].concat(), hours.statistics.as_ref());
     let told = ReportContext { notes, ..report_context(site, site.receivers, drawn, timings, statistics) };
     let report = report::profile_json(profile, &site.place, &site.track, &told)?;
-    // all are there before the first is put in its place
+    // all files are complete before the first is put in place
     let mut ready = files.into_iter().map(|file| open.ready(file)).collect::<Result<Vec<_>, _>>()?;
     ready.extend(raster);
     if asked.report {
@@ -80,12 +80,12 @@ pub(super) fn make(
     }
     let range = hours.range();
     profile.shaded.check()?;
-    // to sync large files takes long, and until here nothing is replaced
+    // syncing large files takes long, and nothing has been replaced so far
     stage("files")?;
     Ok(Pieces { ready, report, range })
 }
 
-/// Writes the raster under a temporary name while it is made.
+/// Writes the raster to a temporary name while it is computed.
 fn raster_of(site: &Site, hours: &Hours, open: &OpenSink<'_>) -> Result<WholeFile, ExportError> {
     match open.path(Path::new(RASTER)) {
         Some(path) => {
@@ -97,7 +97,7 @@ fn raster_of(site: &Site, hours: &Hours, open: &OpenSink<'_>) -> Result<WholeFil
     }
 }
 
-/// Work that is a stage of its own and runs beside other work.
+/// Times work that is a stage of its own, concurrent with other work.
 fn timed<T>(stage: &'static str, work: impl FnOnce() -> T) -> (T, Timings) {
     let started = Instant::now();
     let result = work();

@@ -1,4 +1,4 @@
-//! Finds the hours of shadow on a plan.
+//! Computes the hours of shadow on a plan.
 
 use super::ProfileRequest;
 use super::keeping::StudyStore;
@@ -18,7 +18,7 @@ use std::sync::Arc;
 
 /// The hours of shadow on a plan.
 pub struct Hours {
-    /// Shaded time.
+    /// The shaded time.
     pub profile: Profile<Sums>,
     /// What drew the shadows.
     pub drawn: Provenance,
@@ -26,9 +26,9 @@ pub struct Hours {
     pub surface_mesh: Mesh,
     /// The statistics of counting, if they were requested.
     pub statistics: Option<Statistics>,
-    /// What the study noted beside [`Site::notes`].
+    /// Notes of the study besides [`Site::notes`].
     pub notes: Vec<Message>,
-    /// How long the stages took.
+    /// The duration of the stages.
     pub timings: Timings,
     /// The shadow at each instant with a sun, if that was requested and is in memory.
     pub outlines: Vec<Outline>,
@@ -45,8 +45,8 @@ pub struct Range {
     pub day: f64,
 }
 
-/// Finds the hours, and continues what the study left in the folder when it was stopped. [`StudyStore`] removes what is
-/// left there when it finishes.
+/// Computes the hours, and continues the folder's stopped study if it is the same. [`StudyStore`] removes the study's
+/// files when it finishes.
 pub(in crate::deliver) fn find<'a>(
     site: &Site,
     asked: &ProfileRequest<'a>,
@@ -78,10 +78,10 @@ impl Hours {
         }
     }
 
-    /// The same as the outcome of a study of the plan that is not kept.
+    /// Converts to the outcome of a study on the plan.
     ///
     /// # Errors
-    /// Where the sums lie in a file that cannot be read.
+    /// If the sums are in a file that cannot be read.
     pub(crate) fn into_outcome(self) -> Result<Outcome, ExportError> {
         let Hours { profile, drawn, surface_mesh, statistics, notes, timings, .. } = self;
         let Profile { grid, shaded, day_secs, night_secs } = profile;
@@ -90,7 +90,7 @@ impl Hours {
         Ok(Outcome { profile, drawn, surface: None, surface_mesh, statistics, notes, timings })
     }
 
-    /// The same with the sums in memory.
+    /// Loads the sums into memory.
     pub(super) fn in_memory(mut self) -> Result<Hours, ExportError> {
         let shaded = std::mem::replace(&mut self.profile.shaded, Sums::Memory(Arc::default()));
         self.profile.shaded = Sums::Memory(shaded.in_memory()?);

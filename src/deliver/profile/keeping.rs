@@ -1,4 +1,4 @@
-//! What a study writes while it runs, and how it continues from that after it was stopped.
+//! Writes a study's files while it runs, and continues a stopped one.
 
 use super::request::{ProfileRequest, mask_path};
 use super::sums::Sums;
@@ -20,10 +20,10 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// What is written while the study runs: into a folder, from which the study can continue later, or into memory alone.
+/// What is written while the study runs: to a folder, from which the study can continue later, or to memory only.
 pub(in crate::deliver) struct StudyStore<'a> {
     folder: Option<&'a Path>,
-    /// The study's number.
+    /// The study's fingerprint.
     study: u64,
     /// The checksums of everything written so far.
     checks: Checks,
@@ -35,19 +35,19 @@ pub(in crate::deliver) struct StudyStore<'a> {
     /// Each instant's shadow, if it is needed at the end.
     pub(super) outlines: Vec<Outline>,
     holds_outlines: bool,
-    /// For each instant, how many instants before it have a sun; and their total number at the end.
+    /// For each instant, the number of earlier instants with a sun; and the total at the end.
     with_sun: Vec<usize>,
     pub(super) sums: Sums,
-    /// The sums with which the study continues.
+    /// The sums of the stopped study that is continued.
     begun_sums: Option<SumsFile>,
-    /// The tile in progress, the number of tiles, and whether this run begins with the first instant.
+    /// The current tile, and the number of tiles.
     tile: (Tile, usize),
     is_new: bool,
     /// Whether no tile was begun yet.
     is_first: bool,
     /// Whether there is a state from which the study can continue.
     is_kept: bool,
-    /// What could not be written.
+    /// The first error of writing.
     fault: Option<DeliverError>,
 }
 
@@ -84,7 +84,7 @@ impl StudyStore<'_> {
         })
     }
 
-    /// Says what else lies in the folder, and what will.
+    /// Notes what else is in the folder, and the size of what will be written.
     pub(super) fn look_around(&self, beside: Beside<'_>, on_event: &mut OnEvent<'_>) -> Result<(), DeliverError> {
         let Some(folder) = self.folder else { return Ok(()) };
         beside.tidy(folder, self.study, on_event)?;
@@ -97,14 +97,14 @@ impl StudyStore<'_> {
         Ok(())
     }
 
-    /// What the study left when it was stopped, if everything that it wrote is still there unchanged.
+    /// The state of the stopped study, if all of its files are unchanged.
     pub(super) fn begun(
         &mut self,
         study: &TiledStudy<'_>,
         site: &Site,
         on_event: &mut OnEvent<'_>,
     ) -> Result<Option<Unfinished>, DeliverError> {
-        // nothing keeps the outlines of instants that were drawn before
+        // outlines of earlier instants are not stored
         let Some(folder) = self.folder.filter(|_| !self.holds_outlines) else { return Ok(None) };
         let (begun, checks) = match unfinished::kept(folder, self.study)? {
             StoredStudy::Nothing => return Ok(None),
@@ -122,8 +122,7 @@ impl StudyStore<'_> {
         Ok(Some(begun))
     }
 
-    /// Looks for everything that the study wrote besides its state, and continues with it. Returns the file that was
-    /// changed, if one was.
+    /// Continues the study's other files. Returns the one that was changed, if any was.
     fn other_than_written(
         &mut self,
         folder: &Path,
@@ -158,7 +157,7 @@ impl StudyStore<'_> {
         None
     }
 
-    /// Reports that another stage of making the files is done.
+    /// Reports that a stage of making the files is done.
     pub(in crate::deliver) fn stage(&self, stage: &'static str, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
         tell(on_event, Event::Stage(stage)).inspect_err(|_| shelf::note_end(self.folder.map(|_| self.kept()), on_event))
     }
@@ -168,21 +167,21 @@ impl StudyStore<'_> {
         self.study
     }
 
-    /// The file that keeps the state, if there is a state from which the study can continue.
+    /// The file with the state, if there is a state from which the study can continue.
     pub(in crate::deliver) fn kept(&self) -> Option<PathBuf> {
         self.folder.filter(|_| self.is_kept).map(|folder| unfinished::path(folder, self.study))
     }
 
-    /// Called when the work ends early: removes what no study can continue with.
+    /// Called when the work ends early: removes files that no study can continue from.
     pub(super) fn leave(&mut self, on_event: &mut OnEvent<'_>) {
         if let Some(folder) = self.folder
             && self.is_new
             && !self.is_first
             && !self.is_kept
         {
-            // Windows removes no open file
+            // Windows cannot remove an open file
             (self.bits, self.sums) = (None, Sums::Memory(Arc::default()));
-            // the first error is the one to tell
+            // the first error is reported
             let _ = unfinished::remove(folder, self.study);
         }
         shelf::note_kept(self.kept(), on_event);
@@ -193,16 +192,16 @@ impl StudyStore<'_> {
         self.folder.map_or(Ok(()), |folder| unfinished::remove(folder, self.study))
     }
 
-    /// The fault that ended the work, if something could not be written.
+    /// The error that ended the work, if something could not be written.
     pub(super) fn take_fault(&mut self) -> Option<DeliverError> {
         self.fault.take()
     }
 
-    /// Makes sure that there is room for what will be written, before the first tile.
+    /// Checks that there is room for everything, before the first tile.
     fn begin(&mut self, site: &Site) -> Result<(), ExportError> {
         let Some(folder) = self.folder else { return Ok(()) };
         if self.is_new {
-            // what does not go on must not be taken for what does
+            // files that are not continued must not look as if they were
             unfinished::remove(folder, self.study)?;
         }
         if self.tile.1 > 1 {
@@ -213,11 +212,11 @@ impl StudyStore<'_> {
         Ok(())
     }
 
-    /// Writes what an event brings, and passes it on. Once an instant is drawn, the state can be kept; until then
-    /// nobody may end the work.
+    /// Writes the data of an event, and passes the event on. The work can only be ended once an instant is drawn and
+    /// the state can be stored.
     pub(super) fn hear(&mut self, event: Event<'_>, site: &Site, on_event: &mut OnEvent<'_>) -> ControlFlow<()> {
         let done = match &event {
-            // the study is done again on another device, and asks where it was
+            // the study starts again on another device, and asks for its state
             Event::Resumes { study, begun } => self.begun(study, site, on_event).map(|kept| *begun.borrow_mut() = kept),
             event => self.write(event, site).map_err(DeliverError::from),
         };
@@ -235,7 +234,7 @@ impl StudyStore<'_> {
     fn write(&mut self, event: &Event<'_>, site: &Site) -> Result<(), ExportError> {
         match event {
             Event::StartsOver => {
-                // Windows removes no open file
+                // Windows cannot remove an open file
                 (self.is_new, self.is_first, self.is_kept) = (true, true, false);
                 (self.sums, self.begun_sums) = (Sums::Memory(Arc::default()), None);
                 (self.checks, self.outlines, self.held_masks) = (Checks::default(), Vec::new(), Vec::new());
@@ -272,7 +271,7 @@ impl StudyStore<'_> {
                     file.add(self.with_sun[index], &self.tile.0, bits)?;
                 }
             }
-            // after a fault there is nothing to go on from
+            // after an error there is no state to continue from
             Event::Kept(done) if self.fault.is_none() => self.keep(done)?,
             Event::Note(_) | Event::Kept(_) | Event::Stage(_) | Event::Resumes { .. } | Event::Prepared { .. } => {}
         }
@@ -289,7 +288,7 @@ impl StudyStore<'_> {
         Ok(())
     }
 
-    /// Holds an instant's shadow, of which one tile is drawn.
+    /// Adds a tile's part of an instant's shadow.
     fn hold(&mut self, index: usize, bits: &Bits) {
         let tile = &self.tile.0;
         if tile.is_whole() {
@@ -303,7 +302,7 @@ impl StudyStore<'_> {
         self.outlines[at].shadow.paste(tile, bits);
     }
 
-    /// Makes sure that everything so far is on the disk, and keeps the state.
+    /// Flushes everything to the disk, and writes the state.
     fn keep(&mut self, done: &Unfinished) -> Result<(), ExportError> {
         let Some(folder) = self.folder else { return Ok(()) };
         if let Some(file) = &mut self.bits {

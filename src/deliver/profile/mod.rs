@@ -1,7 +1,7 @@
 //! The shadow profile of a study: hours of shadow on the plan, as a drawing, a raster, a report, lines, masks and bits.
 //!
-//! A study that was stopped in a folder continues there. A caller that shows hours first and writes them later finds
-//! them with [`find_hours`], and writes them with [`write_hours`].
+//! A study that was stopped in a folder continues there. A caller that shows hours first and writes them later uses
+//! [`find_hours`] and [`write_hours`].
 
 mod files;
 mod hours;
@@ -34,7 +34,7 @@ pub struct ProfileAnswer {
     pub written: WrittenFiles,
     /// The number of masks that were written.
     pub masks: usize,
-    /// The content of `profile.json`, whether it was written or not.
+    /// The contents of `profile.json`, whether it was written or not.
     pub report: String,
     /// What drew the shadows.
     pub drawn: Provenance,
@@ -44,10 +44,10 @@ pub struct ProfileAnswer {
     pub range: Range,
 }
 
-/// Adds up the hours of shadow on the site's plan, and writes the requested files.
+/// Computes the hours of shadow on the site's plan, and writes the requested files.
 ///
 /// # Errors
-/// [`DeliverError`]; what does not go together, and what cannot be written, before anything is drawn.
+/// [`DeliverError`]. Contradictory requests, and files that cannot be written, are refused before anything is drawn.
 pub fn profile(
     site: &Site,
     asked: &ProfileRequest<'_>,
@@ -64,7 +64,7 @@ pub fn profile(
     let (hours, mut keeping) = hours::find(site, asked, sink.folder(), Beside::Studies(&[]), on_event)?;
     watch.laps(hours.timings.clone());
     let mut stage = |stage| keeping.stage(stage, on_event);
-    // bits that lie in the folder are written already
+    // bits in a folder are already written
     let asked_now = ProfileRequest { bits: asked.bits && keeping.bits.is_none(), ..asked.clone() };
     let Pieces { ready, report, range } = files::make(site, &hours, &asked_now, &open, &mut watch, &mut stage)?;
     let (drawn, statistics) = (hours.drawn.clone(), hours.statistics);
@@ -73,16 +73,16 @@ pub fn profile(
         written.paths.push(bits.path().to_owned());
         bits.finish()?;
     }
-    // Windows removes no open file.
+    // Windows cannot remove an open file
     drop(hours);
     keeping.finish()?;
     let masks = asked.masks.map_or(0, |_| site.track.instants.len());
     written.files.append(&mut keeping.held_masks);
     if let Some(folder) = asked.masks.filter(|_| sink.folder().is_some()) {
         let beyond = Some(mask_path(folder, masks)).filter(|path| path.exists());
-        let beyond =
-            beyond.map(|path| format!("{} and what follows it is of another study; remove it", path.display()));
-        // all is written, and nothing is left to be ended
+        let beyond = beyond
+            .map(|path| format!("{} and the masks after it belong to another study; remove them", path.display()));
+        // everything is written, so there is nothing left to interrupt
         let _ = note(beyond, on_event);
     }
     Ok(ProfileAnswer { written, masks, report, drawn, statistics, range })
@@ -94,7 +94,7 @@ fn note_drawn_letters(site: &Site, asked: &ProfileRequest<'_>, on_event: &mut On
     note_letters(is_drawn.then_some(site.place.name.as_str()), on_event)
 }
 
-/// Finds hours that are to be shown, all of them in memory; with bits, each instant's shadow too.
+/// Computes hours to be shown, all of them in memory; with bits, each instant's shadow, too.
 ///
 /// If a study is stopped, it is kept in `shelf` (which keeps the newest ones), and continues when the same request is made
 /// again. Nothing is kept while another study works there.
@@ -113,19 +113,19 @@ pub fn find_hours(
         if let Some(bits) = keeping.bits.take() {
             hours.outlines = outlines_of(site, bits.shadows()?);
         }
-        // what cannot be removed now is removed once newer studies are kept
+        // what cannot be removed now will be removed when newer studies are kept
         let _ = keeping.finish();
         Ok(hours)
     })
 }
 
-/// The shadows at the instants with a sun, in the order of time, each with its instant.
+/// The shadows at the instants with a sun, in order of time, each with its instant.
 fn outlines_of(site: &Site, shadows: Vec<Bits>) -> Vec<Outline> {
     let with_sun = site.track.instants.iter().enumerate().filter(|(_, instant)| !instant.night);
     with_sun.zip(shadows).map(|((index, _), shadow)| Outline { index, shadow }).collect()
 }
 
-/// Writes the requested files of hours that were found. The request's stopwatch runs on from [`Hours::timings`].
+/// Writes the requested files of computed hours. The request's stopwatch continues from [`Hours::timings`].
 ///
 /// # Errors
 /// As [`profile()`].

@@ -24,20 +24,20 @@ pub struct ProfileRequest<'a> {
     pub report: bool,
     /// Drawings of lines.
     pub lines: &'a [Lines],
-    /// The folder for the bare mask of each instant.
+    /// The folder for each instant's mask.
     pub masks: Option<&'a Path>,
     /// `shadow.bits`: one bit per cell for every instant with a sun.
     pub bits: bool,
     /// Whether statistics of counting shadow volumes are wanted.
     pub statistics: bool,
-    /// The memory for everything that grows with the plan, bytes; without a value there is no limit.
+    /// The memory for everything that grows with the plan, bytes; `None` for no limit.
     pub memory: Option<u64>,
-    /// Has been running since before the site was read.
+    /// A stopwatch that has been running since before the site was read.
     pub watch: Stopwatch,
 }
 
 impl<'a> ProfileRequest<'a> {
-    /// A request without files. The stopwatch has been running since before the site was read.
+    /// A request without files. The stopwatch must have been running since before the site was read.
     pub fn of(watch: Stopwatch) -> ProfileRequest<'a> {
         ProfileRequest {
             drawing: false,
@@ -73,13 +73,13 @@ impl<'a> ProfileRequest<'a> {
     pub(super) fn wants(&self, site: &Site, is_kept: bool) -> Wants {
         Wants {
             masks: self.masks.is_some(),
-            // by which way a folder is named makes no other study
+            // a different path to the same folder is the same study
             masks_in: self.masks.map(|folder| folder.canonicalize().unwrap_or_else(|_| folder.to_owned())),
             bits: self.bits || self.holds_outlines(),
             lines: !self.lines.is_empty(),
             surface: false,
             statistics: self.statistics,
-            // outlines are not kept
+            // outlines are not stored
             keep_every: (is_kept && !self.holds_outlines()).then_some(KEEP_EVERY),
             budget: self.memory.map(|bytes| Budget {
                 bytes,

@@ -1,4 +1,4 @@
-//! The sums of a study: in memory, or in a file where the plan is worked on in tiles.
+//! The sums of a study: in memory, or in a file if the plan is done in tiles.
 
 use crate::deliver::disk::sums::SumsFile;
 use crate::export::ExportError;
@@ -15,7 +15,7 @@ pub enum Sums {
 }
 
 impl Sums {
-    /// Returns an error if something could not be read since the file was opened; such cells were taken as 0.
+    /// Returns an error if something could not be read since the file was opened; such cells were read as 0.
     pub(super) fn check(&self) -> Result<(), ExportError> {
         match self {
             Sums::Memory(_) => Ok(()),
@@ -23,7 +23,7 @@ impl Sums {
         }
     }
 
-    /// All sums, in memory.
+    /// Loads all sums into memory.
     pub(super) fn in_memory(self) -> Result<Arc<Shaded>, ExportError> {
         let file = match self {
             Sums::Memory(shaded) => return Ok(shaded),

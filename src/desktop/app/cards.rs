@@ -1,4 +1,4 @@
-//! Cards over the picture: what the colours of the hours mean, and when a point lies in the sun.
+//! Cards over the picture: the legend of hours, and the times when a point lies in the sun.
 
 use crate::desktop::app::state::Open;
 use crate::desktop::parts::components;
@@ -14,7 +14,7 @@ use crate::view::{Probe, View};
 use eframe::egui::{self, Align2, Color32, Id, Rect, Sense, Ui, Vec2, vec2};
 use std::sync::Arc;
 
-/// The greatest width of a card, and the room that it leaves around itself, points.
+/// The greatest width of a card, points.
 const WIDTH: f32 = 290.0;
 const AROUND: f32 = 14.0;
 /// The margin within a card's border.
@@ -29,7 +29,7 @@ pub(in crate::desktop) fn show(ui: &Ui, open: &mut Open, settings: &mut WindowSe
         card(ui, "hours", rect, Align2::LEFT_TOP, Vec2::splat(AROUND), |ui| legend(ui, result));
     }
     if is_probed {
-        // below the north arrow where that leaves room
+        // below the north arrow if there is room
         let below = if rect.height() > 400.0 { 88.0 } else { AROUND };
         let result = result.as_ref().filter(|_| !is_wide);
         card(ui, "probe", rect, Align2::RIGHT_TOP, vec2(-AROUND, below), |ui| probe(open, settings, unit, result, ui));
@@ -48,13 +48,13 @@ fn card(ui: &Ui, name: &str, rect: Rect, corner: Align2, offset: Vec2, content: 
     });
 }
 
-/// The part of a card that may be longer than the picture is high; some room is kept below.
+/// A part of a card that scrolls if it is longer than the picture is high; `below` is the room kept below it.
 fn scrolled(ui: &mut Ui, below: f32, content: impl FnOnce(&mut Ui)) {
     let most = (ui.available_height() - below).max(24.0);
     egui::ScrollArea::vertical().max_height(most).auto_shrink(true).min_scrolled_height(24.0).show(ui, content);
 }
 
-/// Marks the point that is being searched or was found.
+/// Marks the point that is being searched, or was found.
 pub(in crate::desktop) fn mark(ui: &Ui, open: &Open, view: &View, rect: Rect) {
     let found = open.sunlight.as_ref().and_then(|sunlight| sunlight.probes.first());
     let Some(probed) = found else { return };
@@ -74,7 +74,7 @@ pub(in crate::desktop) fn swatch(ui: &mut Ui, [r, g, b]: Rgb, what: &str) {
     });
 }
 
-/// The meaning of the colours that lie over the scene.
+/// The legend of the colours on the scene.
 fn legend(ui: &mut Ui, result: &StudyResult) {
     let (head, entries) = result.legend();
     ui.label(head);
@@ -83,7 +83,7 @@ fn legend(ui: &mut Ui, result: &StudyResult) {
 
 fn swatches(ui: &mut Ui, entries: &[(Rgb, String)]) {
     ui.scope(|ui| {
-        // a row is no taller than its letters; many have small ones, so that they hide less of the picture
+        // rows have the height of their text; long legends use a small font, to hide less of the picture
         let is_long = entries.len() > 10;
         (ui.spacing_mut().item_spacing.y, ui.spacing_mut().interact_size.y) =
             if is_long { (0.0, 13.0) } else { (1.0, 16.0) };
@@ -104,11 +104,11 @@ fn probe(open: &mut Open, settings: &mut WindowSettings, unit: Unit, result: Opt
     let Some(probed) = sunlight.probes.first() else { return };
     ui.label(egui::RichText::new(format!("Sun at {}", probed.probe.name)).font(theme::bold(13.5)));
     let point = probed.probe.point;
-    // the buttons stay in sight
+    // the buttons stay visible
     let buttons = ui.spacing().interact_size.y + ui.spacing().item_spacing.y;
     let mut closes = false;
     scrolled(ui, buttons, |ui| {
-        // the answer stays when the pointer goes on
+        // the hover text stays when the pointer moves on
         let under = open.clicked.as_ref().filter(|under| under.point == point);
         let said = open.result.as_ref().zip(under).and_then(|(result, under)| result.said(under, unit));
         place(ui, probed, said, unit);
@@ -138,7 +138,7 @@ fn probe(open: &mut Open, settings: &mut WindowSettings, unit: Unit, result: Opt
     }
 }
 
-/// The position of a point, and what the study that lies over the scene says of it.
+/// The position of a point, and the value of the shown study there.
 fn place(ui: &mut Ui, probed: &ProbeIntervals, said: Option<String>, unit: Unit) {
     let (at, name) = (probed.probe.point / unit.metres, unit.name);
     ui.weak(format!("{:.2} {name} east, {:.2} {name} north, {:.2} {name} up", at.x, at.y, at.z).replace('-', "−"));
@@ -166,7 +166,7 @@ fn intervals(ui: &mut Ui, sunlight: &Sunlight) {
     }
 }
 
-/// Writes the point into the site as a probe, unless it is there.
+/// A button that writes the point into the site as a probe, unless it is already there.
 fn keep_button(ui: &mut Ui, probe: &Probe, settings: &mut WindowSettings) {
     let millimetres = |value: f64| (value * 1000.0).round() / 1000.0 + 0.0;
     let table = ProbeTable {

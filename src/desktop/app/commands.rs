@@ -36,8 +36,8 @@ impl App {
         self.had_focus = has_focus;
     }
 
-    /// Reads the open site's files again. What was set in the window stays if the site file has not changed on the
-    /// disk; otherwise the window asks about it, and undo brings it back.
+    /// Reads the open site's files again. Settings of the window stay if the site file has not changed on the disk;
+    /// otherwise the window asks about them, and undo restores them.
     pub(in crate::desktop) fn reload(&mut self, context: &egui::Context) {
         let Some(open) = &self.open else { return };
         if open.project.path.as_ref().is_some_and(|path| open.project.written.has_changed_at(path)) {

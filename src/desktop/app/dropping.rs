@@ -11,14 +11,14 @@ use eframe::egui;
 use std::path::PathBuf;
 
 impl App {
-    /// Takes what is dropped: what is no model is opened as a site, to which the models beside it are added; models alone are
-    /// opened where no site is open. Of several sites the first is opened.
+    /// Handles dropped files. A file that is not a model is opened as a site, to which dropped models are added; models
+    /// alone are opened if no site is open. Of several sites the first is opened.
     pub(in crate::desktop) fn take_dropped(&mut self, context: &egui::Context) {
         let dropped = |input: &egui::InputState| {
             input.raw.dropped_files.iter().map(|file| file.path().to_owned()).collect::<Vec<PathBuf>>()
         };
         let mut files = context.input(dropped);
-        // all files of a shapefile are dropped together, and one of them is the model
+        // all files of a shapefile are dropped together, but only one of them is the model
         let all = files.clone();
         files.retain(|file| !formats::goes_with_one_of(file, &all));
         let is_model = |file: &PathBuf| formats::is_model(file) && !file.is_dir();
@@ -39,7 +39,7 @@ impl App {
         }
     }
 
-    /// Asks what becomes of models that were dropped on an open site.
+    /// Asks what to do with models that were dropped on an open site.
     pub(in crate::desktop) fn ask_dropped(&mut self, context: &egui::Context) {
         let files = std::mem::take(&mut self.dropped);
         if files.is_empty() {
@@ -63,7 +63,7 @@ impl App {
         }
     }
 
-    /// Writes models into the open site, which is read again.
+    /// Adds models to the open site, which is read again.
     pub(in crate::desktop) fn add_models(&mut self, files: &[PathBuf]) {
         let Some(open) = &self.open else { return };
         let written = &open.project.written;

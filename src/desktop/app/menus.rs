@@ -1,4 +1,4 @@
-//! Menus and their keys, and beside them what lies under the pointer.
+//! Menus and their shortcuts, and beside them what is under the pointer.
 
 use crate::deliver::lines::Lines;
 use crate::desktop::app::state::{App, Open};
@@ -26,7 +26,7 @@ const REDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND.plus(Mod
 /// A menu, which scrolls if it is longer than the window is high.
 fn menu(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui)) {
     ui.menu_button(name, |ui| {
-        // else 400 points, however high the window
+        // otherwise it is 400 points, however high the window
         ui.set_max_height(ui.ctx().content_rect().bottom() - ui.next_widget_position().y - 12.0);
         egui::ScrollArea::vertical().show(ui, content)
     });
@@ -89,7 +89,7 @@ impl App {
             self.ask(Purpose::Open, context);
         }
         if saves && self.open.is_some() && self.asking.is_none() {
-            // what is typed is taken first, in this very frame
+            // typed text is taken over first, in this frame
             context.memory_mut(|memory| memory.stop_text_input());
             self.saving.saves = true;
         }
@@ -240,7 +240,7 @@ impl App {
         interface_scale(ui);
     }
 
-    /// What lies under the pointer, and where, shortened to the room that there is.
+    /// What is under the pointer, and where, shortened to the available room.
     fn read_out(&self, open: &Open, ui: &mut Ui) {
         let Some(under) = &open.viewer.under else { return };
         let unit = Unit::of(self.kept.feet);

@@ -21,7 +21,7 @@ impl App {
             && loading.reads
         {
             let (share, what) = loading.stage();
-            // the time that has gone by
+            // updates the elapsed time
             ui.ctx().request_repaint_after(std::time::Duration::from_millis(500));
             let mut cancels = false;
             ui.horizontal(|ui| {
@@ -31,7 +31,7 @@ impl App {
             });
             if cancels {
                 loading.cancel();
-                // settings of the open site that were to be read are refused until they change
+                // settings that could not be read are refused until they change
                 self.refused = (!loading.opens).then(|| self.settings.clone());
                 (self.loading, self.is_reading) = (None, false);
             }
@@ -60,7 +60,7 @@ impl App {
     fn fault_or_notice(&mut self, ui: &mut Ui) {
         let of_view = self.open.as_ref().and_then(|open| open.viewer.fault.clone());
         let (fault, notice) = (self.fault.clone().or(of_view), self.notice.clone());
-        // a grave accent would be set above the letter behind it
+        // a grave accent would be drawn above the letter after it
         if let Some(text) = fault.as_ref().or(notice.as_ref()).map(|text| text.replace('`', "")) {
             ui.horizontal(|ui| {
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {

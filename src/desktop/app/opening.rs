@@ -21,7 +21,7 @@ impl App {
         }
     }
 
-    /// Shows a site that was loaded: another one, or the open one as it is written now.
+    /// Shows a loaded site: a new one, or the open one with changed settings.
     pub(in crate::desktop) fn take(&mut self, project: Project, opens: bool) {
         self.loaded += 1;
         self.refused = None;
@@ -38,8 +38,8 @@ impl App {
         }
     }
 
-    /// Lets a model's file propose the place of a site file that was read again, as when it is opened: the proposed
-    /// place is set, saved, and kept by undo.
+    /// Lets a model's file propose the place of a site file that was read again, as when it is opened. The proposed
+    /// place becomes part of the settings, counts as saved, and stays after undo.
     fn set_proposed_place(&mut self, place: Option<&PlaceTable>) {
         let propose = |site: &mut SiteFile| {
             place.iter().for_each(|place| site.place.get_or_insert_default().complete_with(place));
@@ -82,7 +82,7 @@ impl App {
         self.add_models(&beside);
     }
 
-    /// Reads the site again if its settings have changed, once the mouse is at rest.
+    /// Reads the site again if its settings have changed, once the mouse button is released.
     pub(in crate::desktop) fn follow_settings(&mut self, context: &egui::Context) {
         let rests = !context.input(|input| input.pointer.any_down());
         if rests {
@@ -93,7 +93,7 @@ impl App {
         let changed = project.written.site != self.settings.site || project.hidden != self.settings.hidden;
         let is_past = |refused: &WindowSettings| !changed && refused.site != self.settings.site;
         if self.refused.take_if(|refused| is_past(refused)).is_some() {
-            // the open site is asked for again
+            // requesting the open site again clears the error
             self.fault = None;
         }
         let is_refused = self.refused.as_ref().is_some_and(|refused| refused.site == self.settings.site);
@@ -108,13 +108,13 @@ impl App {
     }
 }
 
-/// The instant with which the clock begins.
+/// The instant at which the clock starts.
 fn middle_of(track: &SunTrack) -> Option<Instant> {
     track.instants.get(track.instants.len() / 2).cloned()
 }
 
 impl Open {
-    /// The open site as it is written now.
+    /// Replaces the open site by the one with changed settings.
     fn change_to(&mut self, project: Project, middle: &Instant, number: u64) {
         let refraction = project.site.track.refraction;
         if !self.clock.is_at(&project.site.place, refraction) {
@@ -128,13 +128,13 @@ impl Open {
         let (then, now) = (&self.project.written.site, &project.written.site);
         let is_rebuilt = self.project.models.mark() != project.models.mark();
         if is_rebuilt || then.model != now.model || then.ground != now.ground || then.place != now.place {
-            // what was found of a point was found of another scene
+            // results for a point belong to the old scene
             (self.sunlight, self.sky, self.probing, self.clicked) = (None, None, None, None);
         }
         (self.project, self.number) = (project, number);
         self.export_notes.clear();
         self.result = self.result.take().filter(|result| result.lies_on(&self.project.site));
-        // another scale would leave the eye inside the model, or out of sight of it
+        // after a change of scale the eye could be inside the model, or far away
         if !(0.5..=2.0).contains(&grown) {
             self.viewer.fit_all(&self.project);
         }

@@ -46,7 +46,7 @@ pub(in crate::desktop) fn show(app: &mut App, ui: &mut Ui) {
                 components::list(ui, &open.project, &mut app.settings);
             }
         });
-        // said once, when the site was opened
+        // already reported when the site was opened
         section(ui, "Place", true, |ui| place(app, ui));
     });
 }
@@ -67,7 +67,7 @@ fn notes(app: &App) -> Vec<&Message> {
     notes
 }
 
-/// What the user should know of the models, with the keys that would correct what looks wrong.
+/// The notes on the models, with buttons for the keys that would correct what looks wrong.
 fn section_of_notes(app: &mut App, ui: &mut Ui) {
     let words = words::of_panel(app.settings.site.model.len());
     let notes: Vec<String> = notes(app).into_iter().map(|note| note.in_words(words)).collect();
@@ -76,7 +76,7 @@ fn section_of_notes(app: &mut App, ui: &mut Ui) {
     let are_several = models.len() > 1;
     section(ui, "Notes", true, |ui| {
         for note in &notes {
-            // a grave accent would be set above the letter behind it
+            // a grave accent would be drawn above the letter after it
             ui.label(note.replace('`', ""));
         }
         for likeness in &open.project.site.likenesses {
@@ -140,12 +140,12 @@ fn place(app: &mut App, ui: &mut Ui) {
     }
 }
 
-/// The place's name, latitude and longitude; both angles can be typed into either field.
+/// The place's name, latitude and longitude. Both angles can be typed into either field.
 fn coordinates(ui: &mut Ui, typed: &mut TypedText, table: &mut PlaceTable) {
     let name = table.name.clone().unwrap_or_default();
     row(ui, "Name", |ui, label| {
         if let Some(name) = typed.text(ui, ("Name", label), &name, f32::INFINITY, |text| Ok(text.to_owned())) {
-            // an empty name is none
+            // an empty name is no name
             table.name = Some(name).filter(|name| !name.trim().is_empty());
         }
     });
@@ -175,14 +175,14 @@ fn elevation(ui: &mut Ui, typed: &mut TypedText, table: &mut PlaceTable, unit: U
         let suffix = &format!(" {}", unit.name);
         let number = NumberField { speed: 1.0, range, unit: unit.name, suffix, decimals: 0..=2 };
         if typed.number(ui, ("Elevation", label), &mut value, &number).changed() {
-            // to the millimetre, as feet are written in metres
+            // rounded to the millimetre, since a typed foot is converted to metres
             table.elevation = Some((value * unit.metres * 1000.0).round() / 1000.0);
         }
     });
     typed.show_faults(ui, &["Elevation"]);
 }
 
-/// The rotation and the scale of a single model. What its file says is shown until something else is written.
+/// The rotation and the scale of a single model. The file's values are shown until others are set.
 fn placement(ui: &mut Ui, typed: &mut TypedText, model: &mut ModelTable, said: Option<&ModelReference>) {
     let by_file = said.is_some_and(|said| said.said_by.is_some());
     let has_unit = said.is_some_and(|said| said.unit_is_said);
@@ -196,9 +196,9 @@ fn placement(ui: &mut Ui, typed: &mut TypedText, model: &mut ModelTable, said: O
         }
         let label = then(ui, "scale");
         let mut scale = model.scale.or(said.map(|said| said.unit_m)).unwrap_or(1.0);
-        let number = NumberField { speed: 0.01, range: SCALE, unit: "metres a unit", suffix: "", decimals: 0..=6 };
+        let number = NumberField { speed: 0.01, range: SCALE, unit: "metres per unit", suffix: "", decimals: 0..=6 };
         let response = typed.number(ui, ("scale", label), &mut scale, &number);
-        let response = response.on_hover_text("Metres a unit of the model");
+        let response = response.on_hover_text("Metres per unit of the model");
         if response.changed() {
             model.scale = Some(scale).filter(|scale| has_unit || *scale != 1.0);
         }
@@ -206,7 +206,7 @@ fn placement(ui: &mut Ui, typed: &mut TypedText, model: &mut ModelTable, said: O
     typed.show_faults(ui, &["Model north", "scale"]);
 }
 
-/// The ground's height, as the site file gives it or as it was found, and what the user should know of it.
+/// The ground's height, as in the site file or as it was found, and a description.
 fn ground(ui: &mut Ui, typed: &mut TypedText, level: &mut Option<f64>, found: &Ground, unit: Unit) {
     row(ui, "Ground", |ui, label| {
         let mut value = level.unwrap_or(found.level) / unit.metres;
@@ -215,7 +215,7 @@ fn ground(ui: &mut Ui, typed: &mut TypedText, level: &mut Option<f64>, found: &G
         let number = NumberField { speed: 0.1, range, unit: unit.name, suffix, decimals: 0..=3 };
         let response = typed.number(ui, ("Ground", label), &mut value, &number);
         if response.on_hover_text("How high the ground lies above the place's point").changed() {
-            // to the millimetre, as feet are written in metres
+            // rounded to the millimetre, since a typed foot is converted to metres
             *level = Some((value * unit.metres * 1000.0).round() / 1000.0);
         }
         if level.is_some() && ui.button("Find it").on_hover_text("As the models have it").clicked() {
@@ -242,7 +242,7 @@ fn shadows(app: &mut App, ui: &mut Ui) {
     });
     ui.weak(good_for(shown.method));
     if !technique::draws(shown.method, stand) {
-        ui.weak("Not this view's: auto draws it.");
+        ui.weak("It does not draw this view: auto does.");
     }
     if technique::casts_rays(shown.method, software) {
         ui.checkbox(&mut shown.disc, "The sun as a disc: soft edges");
@@ -285,7 +285,7 @@ fn shadows(app: &mut App, ui: &mut Ui) {
 fn study(app: &mut App, ui: &mut Ui) {
     let shown_date = app.open.as_ref().map(|open| open.clock.date());
     let study = &mut app.settings.site.study;
-    // the loader has said what was left out; a date may stand in `from` instead
+    // the loader reports missing values; `from` may include the date
     let said = |slot: &Option<Text>| slot.as_ref().map_or(String::new(), |text| text.0.clone());
     let typed = &mut app.typed;
     row(ui, "Window", |ui, label| {
@@ -343,7 +343,7 @@ fn study(app: &mut App, ui: &mut Ui) {
     study::show(app, ui);
 }
 
-/// To within what time changes of light are found between two instants: as the site file says, or as it is without that.
+/// The precision of times of change: the site file's, otherwise the default.
 fn times_of_change(ui: &mut Ui, typed: &mut TypedText, written: &mut Option<String>, found_secs: Option<u32>) {
     let said = written.clone().unwrap_or_default();
     row(ui, "Resolution", |ui, label| {
@@ -359,7 +359,7 @@ fn times_of_change(ui: &mut Ui, typed: &mut TypedText, written: &mut Option<Stri
     typed.show_faults(ui, &["Resolution"]);
 }
 
-/// What is empty is not said.
+/// An empty text removes the value.
 fn empty_or<T>(read: impl FnOnce(&str) -> Result<T, TypedError>) -> impl FnOnce(&str) -> Result<Option<T>, TypedError> {
     move |text: &str| if text.trim().is_empty() { Ok(None) } else { read(text).map(Some) }
 }

@@ -8,7 +8,7 @@ use crate::desktop::work::loading::LoadRequest;
 use crate::message::few;
 use eframe::egui::{self, Key, Response, TextEdit, Ui};
 
-/// A field, and below it why the typed text is not accepted, until something else is typed.
+/// A field, and below it why the typed text is refused, until something else is typed.
 fn field(ui: &mut Ui, name: &str, hint: &str, text: &mut String, fault: &mut Option<String>) -> Response {
     let label = ui.label(name);
     let response = ui.vertical(|ui| {
@@ -29,7 +29,7 @@ fn field(ui: &mut Ui, name: &str, hint: &str, text: &mut String, fault: &mut Opt
 impl App {
     /// Asks where the model stands.
     pub(in crate::desktop) fn ask_place(&mut self, context: &egui::Context) {
-        // one question after the other
+        // one question at a time
         let is_questioned = self.is_questioned();
         let Some(bare) = self.bare.as_mut().filter(|_| !is_questioned) else { return };
         let mut goes = false;
@@ -44,7 +44,7 @@ impl App {
             egui::Grid::new("bare").num_columns(2).spacing([12.0, 8.0]).show(ui, |ui| {
                 let [of_place, of_north] = &mut bare.faults;
                 let response = field(ui, "Latitude, longitude", "48.2082, 16.3738", &mut bare.place, of_place);
-                // the first thing that is to be said, and the only one that must be
+                // the first field, and the only required one
                 if ui.memory(|memory| memory.focused().is_none()) && bare.place.is_empty() {
                     response.request_focus();
                 }

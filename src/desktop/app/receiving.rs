@@ -1,4 +1,4 @@
-//! Receives the results of the work in other threads.
+//! Receives the results of work in other threads.
 
 use crate::desktop::app::state::App;
 use crate::desktop::parts::point_sky::PointSky;
@@ -13,7 +13,7 @@ use eframe::egui;
 use std::sync::Arc;
 
 impl App {
-    /// Receives the results of the work beside the window.
+    /// Receives the results of work in other threads.
     pub(in crate::desktop) fn receive(&mut self, context: &egui::Context) {
         self.receive_note();
         self.receive_site(context);
@@ -76,7 +76,7 @@ impl App {
         let notes = adding.notes();
         open.adding = None;
         match result {
-            // colours of faces are those of the very model that they were found on
+            // colours of faces belong to the model for which they were found
             Ok(result) if !result.lies_on(&open.project.site) => {
                 self.notice = Some("The model has changed since: find the hours again".to_owned());
             }
@@ -85,7 +85,7 @@ impl App {
         }
     }
 
-    /// Lays over the scene what was found. After a comparison, the state before is kept to be compared with.
+    /// Shows a result on the scene. After a comparison, the state before is kept for further ones.
     fn lay(&mut self, result: StudyResult) {
         let Some(open) = &mut self.open else { return };
         if let Some(change) = result.change() {

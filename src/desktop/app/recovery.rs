@@ -1,4 +1,4 @@
-//! Keeps unsaved settings, and offers them after a crash or a kill.
+//! Stores unsaved settings, and offers them after a crash or a kill.
 
 use crate::desktop::app::state::App;
 use crate::desktop::parts::question::Question;
@@ -11,7 +11,7 @@ use eframe::egui;
 use std::path::Path;
 
 impl App {
-    /// The same window, which keeps unsaved settings beside eframe's own data.
+    /// The same window, which stores unsaved settings beside eframe's own data.
     pub(in crate::desktop) fn recovering(self) -> App {
         match eframe::storage_dir("gnomon") {
             Some(folder) => self.recovering_in(&folder.join("recovery")).keeping_studies_in(&folder.join("studies")),
@@ -19,13 +19,13 @@ impl App {
         }
     }
 
-    /// The same window, which keeps unsaved settings in a folder, and offers those of windows that have ended.
+    /// The same window, which stores unsaved settings in a folder, and offers those of windows that have ended.
     pub fn recovering_in(mut self, folder: &Path) -> App {
         self.saving.recovery.begin_in(folder);
         self
     }
 
-    /// Keeps unsaved settings once they are at rest, and removes them if everything is saved.
+    /// Stores unsaved settings once they stop changing, and removes them if everything is saved.
     pub(in crate::desktop) fn keep_unsaved(&mut self, context: &egui::Context) {
         let is_wanted = self.is_unsaved() && !self.is_left();
         let Some(open) = &self.open else { return };
@@ -64,12 +64,13 @@ impl App {
         }
     }
 
-    /// Opens the site as its file was, and applies the unsaved settings, as a change that undo takes back.
+    /// Opens the site with the site file that the settings were based on, and applies the unsaved settings as a change
+    /// that undo can revert.
     fn restore(&mut self, slot: Slot, unsaved: UnsavedSite, context: &egui::Context) {
         let UnsavedSite { path, written } = unsaved;
         let set = written.site.clone();
         let site = match written.text.as_str() {
-            // a bare model stands where it was put
+            // a bare model keeps the place that was set
             "" => SiteFile { place: set.place.clone(), model: set.model.clone(), ..SiteFile::default() },
             text => match SiteFile::parse(&written.file, text) {
                 Ok(site) => site,
@@ -83,14 +84,14 @@ impl App {
         self.saving.recovery.restore(slot, set);
     }
 
-    /// A site was opened to which unsaved settings belong.
+    /// Applies recovered settings once their site is open.
     pub(in crate::desktop) fn set_recovered(&mut self) {
         let Some((slot, mut site)) = self.saving.recovery.take_restored() else { return };
         let technique = site.study.technique.take();
         self.settings.shown.method = technique.and_then(|word| word.parse().ok()).unwrap_or_default();
         site.study.technique.clone_from(&self.settings.site.study.technique);
         self.settings.site = site;
-        // it stays kept
+        // they stay stored until they are saved
         self.saving.recovery.go_on_with(slot, (self.settings.site.clone(), self.settings.shown.method));
         let changed = self.open.as_ref().and_then(|open| open.project.changed_file());
         self.changed = changed.map(name_of);

@@ -12,7 +12,7 @@ use eframe::egui::{self, ViewportCommand};
 use std::path::{Path, PathBuf};
 
 impl App {
-    /// Whether there are settings that are in no file.
+    /// Whether there are settings that are not in a file.
     pub fn is_unsaved(&self) -> bool {
         self.open.is_some()
             && self
@@ -30,7 +30,7 @@ impl App {
         }
     }
 
-    /// The name of the open file for people; a `site.toml` has the name of its folder.
+    /// The name of the open file in the title; a `site.toml` has its folder's name.
     fn file_name(&self) -> Option<String> {
         let project = &self.open.as_ref()?.project;
         let path = project.path.as_deref().unwrap_or(Path::new(&project.written.file));
@@ -39,14 +39,14 @@ impl App {
         Some(if folder == name { name } else { format!("{folder}/{name}") })
     }
 
-    /// Notes that the settings are those of the site file, or of a bare model.
+    /// Records the current settings as saved, or as those of a bare model.
     pub(in crate::desktop) fn note_saved(&mut self) {
         let saved = || (self.settings.site.clone(), self.settings.shown.method);
         let has_file = self.open.as_ref().is_some_and(|open| open.project.path.is_some());
         self.saving.saved = has_file.then(saved);
     }
 
-    /// Writes the open site file; asks where for a bare model and a sample.
+    /// Writes the open site file; asks for a path for a bare model or a sample.
     pub(in crate::desktop) fn save_site(&mut self, context: &egui::Context) {
         let Some(open) = &self.open else { return };
         match &open.project.path {
@@ -62,7 +62,7 @@ impl App {
         }
     }
 
-    /// Asks for the path of the site file. If another path is being asked for, nothing is saved.
+    /// Asks for the path of the site file. If another path dialog is open, nothing is saved.
     fn ask_where(&mut self, context: &egui::Context) {
         self.ask(Purpose::SaveSite, context);
         if !self.asking.as_ref().is_some_and(|asking| asking.purpose() == Purpose::SaveSite) {
@@ -91,35 +91,35 @@ impl App {
         self.notice = None;
         let Some(open) = &mut self.open else { return };
         let mut written = export::written(&open.project, &self.settings, &open.viewer.eye, &path);
-        // a model is no site file, whatever was answered
+        // a model must not be overwritten by a site file
         let models = file::check_inputs(&open.project.written.model_files(), std::slice::from_ref(&path));
         let text = models.map_err(anyhow::Error::from).and_then(|()| Ok(written.site.to_toml_in(&written.text)?));
         match text.and_then(|text| file::write(&path, text.as_bytes()).map(|()| text).map_err(Into::into)) {
             Ok(text) => {
                 written.text = text;
-                // what undo brings back is read from the new place, too
+                // states that undo restores must also be read from the new folder
                 let from = open.project.written.folder.clone();
                 self.history.change_all(|site| export::move_models(site, &from, &written.folder));
                 self.notice = Some(format!("Written: {}", path.display()));
                 open.project.path = Some(path);
                 let is_read = open.project.written.site == self.settings.site;
                 self.settings.site = written.site.clone();
-                // what is still being read would bring back the old file
+                // a load in progress would restore the old file
                 let loading = self.loading.take_if(|loading| !loading.opens);
                 if let Some(loading) = &loading {
                     loading.cancel();
                     self.is_reading = false;
                 }
-                // what was not read to its end, or was set in this very frame, is read from the settings
+                // an interrupted load, or a change in this frame, must be read from the settings
                 if loading.is_some() || !is_read {
                     written.site.clone_from(&open.project.written.site);
                     export::move_models(&mut written.site, &from, &written.folder);
                 }
                 open.project.written = written;
                 self.history.note(&self.settings);
-                // a model may have
+                // a model may have changed
                 self.changed = open.project.changed_file().map(name_of);
-                // what is wrong with the site itself stays told
+                // an error in the site itself stays visible
                 self.fault = self.fault.take().filter(|_| self.refused.is_some());
                 self.note_saved();
                 if let Some(then) = then {
@@ -130,7 +130,7 @@ impl App {
         }
     }
 
-    /// Performs an action if it loses nothing; otherwise asks first.
+    /// Performs an action if nothing would be lost; otherwise asks first.
     pub(in crate::desktop) fn go_on_or_ask(&mut self, then: PendingAction, context: &egui::Context) {
         if self.is_unsaved() {
             self.question_unsaved(then);
@@ -139,7 +139,7 @@ impl App {
         }
     }
 
-    /// Asks what becomes of unsaved settings, and forgets the action of an earlier question.
+    /// Asks what to do with unsaved settings, and forgets the action of an earlier question.
     fn question_unsaved(&mut self, then: PendingAction) {
         self.give_up_saving();
         self.saving.question = Some(SaveQuestion::Unsaved(then));
@@ -157,7 +157,7 @@ impl App {
         }
     }
 
-    /// Nothing was saved: forgets the action that was to follow.
+    /// After nothing was saved: forgets the action that was to follow.
     pub(in crate::desktop) fn give_up_saving(&mut self) {
         self.saving.then = None;
     }
@@ -180,7 +180,7 @@ impl App {
         }
         let is_hidden = context.input(|input| input.viewport().visible() == Some(false));
         if !is_hidden && context.memory(|memory| memory.focused().is_some()) {
-            // what is typed is taken first, in this very frame
+            // typed text is taken over first, in this frame
             context.memory_mut(|memory| memory.stop_text_input());
             context.send_viewport_cmd(ViewportCommand::CancelClose);
             self.saving.closes = true;
@@ -194,10 +194,11 @@ impl App {
         }
     }
 
-    /// The end of a frame, after the fields have taken the typed text: saves, closes, asks, and sets the title.
+    /// Runs at the end of a frame, after fields have taken over the typed text: saves, closes, asks, and sets the
+    /// title.
     pub(in crate::desktop) fn save_and_ask(&mut self, context: &egui::Context) {
         if std::mem::take(&mut self.saving.saves) {
-            // nothing follows it but what its own question says
+            // only the answer to its own question can follow
             self.give_up_saving();
             self.save_site(context);
         }

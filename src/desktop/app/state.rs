@@ -1,4 +1,4 @@
-//! The window's state: what is open, what is set, and which work is running.
+//! The window's state: what is open, the settings, and the work in progress.
 
 use crate::desktop::app::device::devices;
 use crate::desktop::parts::fields::TypedText;
@@ -30,7 +30,7 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// What is kept from one start to the next.
+/// What is stored from one start to the next.
 #[derive(Default, Serialize, Deserialize)]
 pub(in crate::desktop) struct PersistentState {
     pub(in crate::desktop) recent: Vec<PathBuf>,
@@ -38,7 +38,7 @@ pub(in crate::desktop) struct PersistentState {
     pub(in crate::desktop) no_sun_path: bool,
 }
 
-/// An open site, and what was found of it.
+/// An open site with its results.
 pub(in crate::desktop) struct Open {
     /// The site.
     pub(in crate::desktop) project: Project,
@@ -48,11 +48,12 @@ pub(in crate::desktop) struct Open {
     pub(in crate::desktop) viewer: Viewer,
     /// How many times hours were requested.
     pub(in crate::desktop) answers: u64,
-    /// The hours that are being added up.
+    /// The hours that are being computed.
     pub(in crate::desktop) adding: Option<Work<StudyResult>>,
-    /// The hours that were found, or the change.
+    /// The computed hours, or the change.
     pub(in crate::desktop) result: Option<Arc<StudyResult>>,
-    /// Whether they lie over the model, instead of one instant. This belongs to the view, which undo leaves alone.
+    /// Whether the result is shown on the model, instead of one instant. This belongs to the view, so undo does not
+    /// change it.
     pub(in crate::desktop) shows_hours: bool,
     /// The state that was kept for comparison.
     pub(in crate::desktop) before: Option<BeforeState>,
@@ -68,21 +69,21 @@ pub(in crate::desktop) struct Open {
 
 /// The window.
 pub struct App {
-    /// The window's own device, on which nothing but its frames is drawn.
+    /// The window's own device, which draws only the window's frames.
     pub(in crate::desktop) gpu: Gpu,
     pub(in crate::desktop) render: RenderState,
     pub(in crate::desktop) stage: Stage,
     pub(in crate::desktop) kept: PersistentState,
     /// The open site.
     pub(in crate::desktop) open: Option<Open>,
-    /// What a person sets.
+    /// The settings.
     pub(in crate::desktop) settings: WindowSettings,
     pub(in crate::desktop) history: History,
     pub(in crate::desktop) loading: Option<LoadJob>,
     pub(in crate::desktop) loaded: u64,
     /// Whether the site is being read again, because its settings have changed.
     pub(in crate::desktop) is_reading: bool,
-    /// Settings that are known to make no site.
+    /// Settings that are known to be invalid.
     pub(in crate::desktop) refused: Option<WindowSettings>,
     pub(in crate::desktop) bare: Option<BareModel>,
     /// Models that were dropped on the open site, until the question about them is answered.
@@ -93,11 +94,11 @@ pub struct App {
     pub(in crate::desktop) writing: Option<Work<PathBuf>>,
     /// The text that is being typed into the panel's fields.
     pub(in crate::desktop) typed: TypedText,
-    /// What is saved, and the questions about what is not.
+    /// What is saved, and the questions about unsaved settings.
     pub(in crate::desktop) saving: SaveState,
-    /// What went wrong, in the command's words.
+    /// The current error, in the command's words.
     pub(in crate::desktop) fault: Option<String>,
-    /// What was done.
+    /// The current notice.
     pub(in crate::desktop) notice: Option<String>,
     /// The folder in which stopped studies are kept, if any.
     pub(in crate::desktop) studies: Option<PathBuf>,
@@ -111,7 +112,7 @@ impl App {
     /// A window on eframe's device, with a site or a model in it if one is named. Models are read in this process.
     ///
     /// # Errors
-    /// Where eframe has no device.
+    /// If eframe has no device.
     pub fn new(
         cc: &eframe::CreationContext<'_>,
         path: Option<&Path>,
@@ -119,7 +120,7 @@ impl App {
         Self::with_reader(cc, path, ModelReader::default())
     }
 
-    /// The same, with another reader of models.
+    /// The same with a different reader of models.
     pub(in crate::desktop) fn with_reader(
         cc: &eframe::CreationContext<'_>,
         path: Option<&Path>,
@@ -174,10 +175,10 @@ impl App {
         self.open.as_ref()?.viewer.shown()?.legend.as_ref()
     }
 
-    /// Reads back the picture that is shown: columns, rows and pixels.
+    /// Reads back the picture on the screen: columns, rows and pixels.
     ///
     /// # Errors
-    /// Where there is none, or the adapter fails.
+    /// If there is none, or if the adapter fails.
     pub fn picture(&self) -> anyhow::Result<(u32, u32, Vec<[u8; 4]>)> {
         let shown = self.open.as_ref().and_then(|open| open.viewer.shown());
         let Some(shown) = shown else { anyhow::bail!("there is no picture yet") };
@@ -198,7 +199,7 @@ impl App {
     pub(in crate::desktop) fn set(&mut self, settings: Option<WindowSettings>) {
         if let Some(settings) = settings {
             if let Some(open) = self.open.as_mut().filter(|_| settings.before != self.settings.before) {
-                // what it would bring is undone
+                // its result would be undone
                 open.adding = None;
             }
             self.settings = settings;

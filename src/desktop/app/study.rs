@@ -1,4 +1,4 @@
-//! The part of the panel that finds hours and changes, and shows the results.
+//! The part of the panel that starts studies and comparisons, and shows their results.
 
 use crate::choice::{Engine, Subject, listed};
 use crate::desktop::app::state::{App, Open};
@@ -89,13 +89,13 @@ pub(in crate::desktop) fn find(
     });
 }
 
-/// The state with which the open site is compared.
+/// The state that the open site is compared with.
 fn compare(app: &mut App, ui: &mut Ui, context: &egui::Context) {
     let mut other = None;
     let mut asks = false;
     let Some(open) = &mut app.open else { return };
     let rests = open.adding.is_none() && !app.is_reading;
-    // what was found says it, too
+    // the result says so, too
     let is_told = open.result.as_ref().is_some_and(|result| result.change().is_some());
     if let Some(before) = app.settings.before.as_ref().filter(|_| !is_told) {
         let name = before::name_of(before);
@@ -106,8 +106,8 @@ fn compare(app: &mut App, ui: &mut Ui, context: &egui::Context) {
         let result =
             open.result.as_ref().filter(is_asked).filter(|result| matches!(result.found, Findings::Shadow(_))).cloned();
         if app.settings.before.is_some() {
-            if ui.button("Compare no more").clicked() {
-                // what is being found would bring it back
+            if ui.button("Stop comparing").clicked() {
+                // a result in progress would bring it back
                 (app.settings.before, open.adding) = (None, None);
                 open.result = open.result.take().filter(|result| result.change().is_none());
             }
@@ -175,7 +175,7 @@ pub(in crate::desktop) fn areas(app: &App, ui: &mut Ui) {
     ui.add(egui::Label::new(format!("Before: {before}")).wrap());
     ui.add(egui::Label::new(format!("After: {after}")).wrap());
     let rows: Vec<_> = change.rows().into_iter().map(|row| row.map(|text| text.replace('-', "−"))).collect();
-    // numbers first; what they are goes on below itself where that leaves little room
+    // numbers first; their descriptions wrap if there is little room
     const APART: f32 = 10.0;
     let widest = |column: usize| rows.iter().map(|row| theme::width_of(ui, &row[column])).fold(0.0, f32::max).ceil();
     let [second, third] = [1, 2].map(widest);

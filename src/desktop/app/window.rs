@@ -45,7 +45,7 @@ impl eframe::App for App {
             let most = (ui.available_width() - 240.0).clamp(300.0, 460.0);
             let beside = egui::Panel::left("panel").default_size(308.0).size_range(300.0..=most).resizable(true);
             beside.frame(on_ground).show(ui, |ui| {
-                // as wide as it was made by hand, whatever stands in it
+                // keeps the width that the user set, whatever the contents
                 let rect = ui.available_rect_before_wrap();
                 panel::show(self, &mut ui.new_child(egui::UiBuilder::new().max_rect(rect)));
                 ui.advance_cursor_after_rect(rect);

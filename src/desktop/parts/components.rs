@@ -1,4 +1,4 @@
-//! The list of components: their colours, and what each of them does.
+//! The list of components: their colours and roles.
 
 use crate::desktop::parts::theme;
 use crate::desktop::state::project::Project;
@@ -21,7 +21,7 @@ const COLUMN: f32 = 52.0;
 pub(in crate::desktop) fn list(ui: &mut egui::Ui, project: &Project, settings: &mut WindowSettings) {
     let site = &project.site;
     heading(ui, site.mesh.components.len());
-    // what is switched already and not read yet counts, too
+    // includes switches whose settings are not read yet
     let roles = (settings.site.model != project.written.site.model)
         .then(|| [roles(project, settings, true), roles(project, settings, false)]);
     let [casts, receives] = match &roles {
@@ -78,7 +78,7 @@ fn component(
         let Some(column) = column else {
             let (rect, _) = ui.allocate_exact_size(egui::vec2(12.0, 12.0), Sense::hover());
             ui.painter().rect_filled(rect, 3.0, Color32::from_rgb(r, g, b));
-            // parts of one thing differ at the end
+            // similar names usually differ at the end
             let fits = |text: &str| theme::width_of(ui, text) <= ui.available_width();
             let cut = without_middle(name, fits);
             ui.label(cut).on_hover_text(name);
@@ -99,7 +99,7 @@ fn component(
 
 /// The number of hidden components, and a button that shows them again.
 fn hidden_count(ui: &mut egui::Ui, project: &Project, settings: &mut WindowSettings) {
-    // a name of which nothing is left hides nothing
+    // names without remaining components hide nothing
     let roles = project.site.receives.iter().zip(&project.visible.receives);
     let hidden = roles.filter(|(receives, visible)| receives != visible).count();
     if hidden > 0 {
@@ -160,7 +160,7 @@ fn switch(project: &Project, settings: &mut WindowSettings, (index, casts, on): 
             let Some(table) = settings.site.model.get_mut(model) else { return };
             let is_on = |at: usize| if at == index { on } else { now[at] };
             let chosen: Vec<usize> = (first..first + count).filter(|at| is_on(*at)).collect();
-            // what holds where nobody says it: what lies on the ground does not cast
+            // the default: ground cover does not cast
             let usual = match casts {
                 true => project.models.casts_of(model, &Names::All(true)),
                 false => vec![true; count],

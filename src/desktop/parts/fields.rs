@@ -1,5 +1,5 @@
-//! Fields for typing. The text is read when it is finished, in the ways in which people write it. Text that cannot be
-//! read changes nothing, and the reason is shown below its field.
+//! Fields for typing. The text is read when it is finished, in any usual spelling. Text that cannot be read changes
+//! nothing, and the reason is shown below its field.
 
 use crate::desktop::state::words::PanelWords;
 use crate::message::Worded;
@@ -14,7 +14,7 @@ use std::ops::RangeInclusive;
 pub(in crate::desktop) struct TypedText {
     /// The field into which text is being typed, and the text.
     now: Option<(String, String)>,
-    /// What a field showed when something else was typed into it, and why that is not accepted.
+    /// For each field, what it showed when other text was typed, and why that text is refused.
     faults: BTreeMap<String, (String, String)>,
 }
 
@@ -26,7 +26,7 @@ pub(in crate::desktop) struct NumberField<'a> {
     pub(in crate::desktop) range: RangeInclusive<f64>,
     /// The unit of the number.
     pub(in crate::desktop) unit: &'static str,
-    /// The text behind the number.
+    /// The text after the number.
     pub(in crate::desktop) suffix: &'a str,
     /// The number of decimals that it shows.
     pub(in crate::desktop) decimals: RangeInclusive<usize>,
@@ -85,7 +85,7 @@ impl TypedText {
         let shown = RefCell::new(String::new());
         let fault = Cell::new(None);
         let parse = |text: &str| {
-            // what nobody has changed keeps the decimals that are not shown
+            // an unchanged value keeps the decimals that are not shown
             if *shown.borrow() == text {
                 return Some(before);
             }
@@ -98,7 +98,7 @@ impl TypedText {
         };
         let drag = DragValue::new(value).speed(number.speed).range(number.range.clone()).suffix(number.suffix);
         let drag = drag.min_decimals(*number.decimals.start()).max_decimals(*number.decimals.end());
-        // read once it is whole: its beginning is another number
+        // read only when finished: its beginning may be a different number
         let drag = drag.update_while_editing(false);
         let response = ui.add(drag.custom_formatter(format).custom_parser(parse)).labelled_by(label);
         let fault = fault.take();
@@ -130,7 +130,7 @@ impl TypedText {
         (response.changed(), place.take())
     }
 
-    /// Shows why the text typed into one of these fields is not accepted.
+    /// Shows why the text typed into one of these fields is refused.
     pub(in crate::desktop) fn show_faults(&self, ui: &mut Ui, names: &[&str]) {
         for (_, fault) in names.iter().filter_map(|name| self.faults.get(*name)) {
             refused(ui, fault);
@@ -152,7 +152,7 @@ impl TypedText {
     }
 }
 
-/// Shows below a field why the typed text is not accepted.
+/// Shows below a field why the typed text is refused.
 pub(in crate::desktop) fn refused(ui: &mut Ui, fault: &str) {
     let text = egui::RichText::new(fault.replace('`', "").replace(" -", " −")).color(ui.visuals().error_fg_color);
     ui.add(egui::Label::new(text).wrap());

@@ -1,5 +1,4 @@
-//! The parts of which the window is drawn: the picture and what lies over it, fields, lists, dialogs. None of them
-//! knows the window.
+//! The parts of the window: the picture with its overlays, fields, lists, dialogs. None of them depends on the window.
 
 pub(in crate::desktop) mod components;
 pub(in crate::desktop) mod fields;

@@ -1,5 +1,5 @@
-//! Asks for paths with the system's dialogs, or with a dialog in the window where the system has none. It also offers
-//! the samples.
+//! Asks for paths with the system's dialogs, or with a dialog in the window if the system has none. It also offers the
+//! samples.
 
 use crate::deliver::lines::Lines;
 use crate::desktop::parts::question::Question;
@@ -15,9 +15,9 @@ use std::time::{Duration, Instant};
 /// The purposes for which a path is asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::desktop) enum Purpose {
-    /// Opens what lies there.
+    /// Opens what is there.
     Open,
-    /// Compares the open site with what lies there.
+    /// Compares the open site with what is there.
     Compare,
     /// Writes the site file.
     SaveSite,
@@ -45,7 +45,7 @@ impl Purpose {
         }
     }
 
-    /// Whether something must already be there.
+    /// Whether the path must already exist.
     fn reads(self) -> bool {
         matches!(self, Purpose::Open | Purpose::Compare)
     }
@@ -112,7 +112,7 @@ impl PathDialog {
                 dialog = dialog.set_directory(folder);
             }
             let name = name.unwrap_or_default().to_string_lossy().into_owned();
-            // before a file is replaced the system asks
+            // the system asks before a file is replaced
             let path = match purpose {
                 Purpose::Open | Purpose::Compare => {
                     dialog.add_filter("Sites and models", &endings()).add_filter("All", &["*"]).pick_file()
@@ -121,7 +121,7 @@ impl PathDialog {
                 Purpose::Drawing => dialog.add_filter("PNG", &["png"]).set_file_name(name).save_file(),
                 Purpose::Hours | Purpose::Lines(_) | Purpose::Animation => dialog.pick_folder(),
             };
-            // who closed the window listens no more
+            // if the window is closed, nobody receives this
             let _ = tell.send(path);
             context.request_repaint();
         });
@@ -136,7 +136,7 @@ impl PathDialog {
 
     /// Looks for the answer. If the system showed no dialog, it shows the one in the window.
     pub(in crate::desktop) fn show(&mut self, context: &egui::Context) -> DialogAnswer {
-        /// The time within which nobody can have answered: the system showed no dialog.
+        /// Answers faster than a person could give mean that the system showed no dialog.
         const AT_ONCE: Duration = Duration::from_millis(400);
         match self.answer.try_recv() {
             Ok(Some(path)) if self.purpose.is_folder() => return self.choose(path),
@@ -187,7 +187,7 @@ impl PathDialog {
         }
     }
 
-    /// Takes a path that was chosen. An existing file is not replaced without a question.
+    /// Accepts a path. An existing file is only replaced after a question.
     fn choose(&mut self, path: PathBuf) -> DialogAnswer {
         let is_there = |file: &PathBuf| file.is_file();
         let there = match self.purpose {
@@ -215,7 +215,7 @@ impl PathDialog {
         match question.show(context) {
             None => DialogAnswer::None,
             Some(0) => DialogAnswer::Path(self.purpose, path.clone()),
-            // back to the path, where that was typed here
+            // back to the path, if it was typed here
             Some(_) => {
                 (self.replaces, self.is_met) = (None, false);
                 if self.typed.is_some() { DialogAnswer::None } else { DialogAnswer::Nothing }
@@ -229,7 +229,7 @@ fn endings() -> Vec<&'static str> {
     ["toml"].into_iter().chain(FORMATS.iter().flat_map(|format| format.endings()).copied()).collect()
 }
 
-/// Folders, sites and models around the typed path, to be clicked.
+/// Folders, sites and models around the typed path, to click on.
 fn listing(ui: &mut egui::Ui, typed: &mut String) {
     let path = PathBuf::from(typed.trim());
     let folder = if path.is_dir() { path } else { path.parent().map(Path::to_owned).unwrap_or_default() };
@@ -242,7 +242,7 @@ fn listing(ui: &mut egui::Ui, typed: &mut String) {
     let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).filter(|path| is_ours(path)).collect();
     paths.retain(visible);
     paths.sort_by_key(|path| (!path.is_dir(), path.clone()));
-    // the dialog's heading, field and buttons have their room
+    // leaves room for the dialog's heading, field and buttons
     let most = (ui.ctx().content_rect().height() - 210.0).clamp(60.0, 220.0);
     egui::ScrollArea::vertical().max_height(most).show(ui, |ui| {
         if let Some(parent) = folder.parent()

@@ -3,7 +3,7 @@
 use crate::desktop::parts::theme;
 use eframe::egui::{self, RichText};
 
-/// A question and its answers. The last answer, which Escape also gives, leaves everything as it is.
+/// A question and its answers. The last answer, also given by Escape, changes nothing.
 pub(in crate::desktop) struct Question<'a, const N: usize> {
     /// What it is about.
     pub(in crate::desktop) heading: &'a str,
@@ -13,7 +13,7 @@ pub(in crate::desktop) struct Question<'a, const N: usize> {
     pub(in crate::desktop) path: &'a str,
     /// The possible answers.
     pub(in crate::desktop) answers: [&'a str; N],
-    /// The answer that Enter gives.
+    /// The index of the answer that Enter gives.
     pub(in crate::desktop) first: usize,
 }
 

@@ -1,14 +1,14 @@
-//! Draws the picture and the panels' background into the window's frame, by two shaders that do nothing else.
+//! Draws the picture and the panels' background into the window's frame, with two shaders that do nothing else.
 //!
-//! egui has one fragment shader for everything, text included. On a software adapter it takes ten times as long for a
-//! picture as sampling the picture does, and so would every frame.
+//! egui has one fragment shader for everything, including text. On a software adapter it takes ten times as long for a
+//! picture as sampling the picture does, in every frame.
 
 use crate::gpu::shaders;
 use eframe::egui::{Color32, PaintCallback, PaintCallbackInfo, Rect};
 use eframe::egui_wgpu::{Callback, CallbackResources, CallbackTrait, RenderState, ScreenDescriptor};
 use wgpu::*;
 
-/// The pipelines that draw it, one set per window, kept where egui's renderer finds them.
+/// The pipelines, one set per window, stored where egui's renderer finds them.
 struct ScreenPipelines {
     shows: RenderPipeline,
     fills: RenderPipeline,
@@ -76,7 +76,7 @@ pub(in crate::desktop) fn set_up(render: &RenderState) {
 pub(in crate::desktop) struct Print(BindGroup);
 
 impl Print {
-    /// Of a texture, which may be drawn again at any time.
+    /// Makes a print of a texture, which may be redrawn at any time.
     pub(in crate::desktop) fn of(texture: &Texture, render: &RenderState) -> Option<Print> {
         let renderer = render.renderer.read();
         let screen: &ScreenPipelines = renderer.callback_resources.get()?;
@@ -92,7 +92,7 @@ impl Print {
         })))
     }
 
-    /// Shows it in a rectangle, at the rectangle's size.
+    /// Shows it in a rectangle, scaled to it.
     pub(in crate::desktop) fn shown_in(&self, rect: Rect) -> PaintCallback {
         Callback::new_paint_callback(rect, self.clone())
     }

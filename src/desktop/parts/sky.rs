@@ -1,5 +1,5 @@
-//! What lies over the picture: the sun's path, the north arrow, the scale bar. egui draws the lines and the text,
-//! placed by the view of the picture.
+//! Overlays of the picture: the sun's path, the north arrow, the scale bar. egui draws the lines and the text,
+//! positioned by the picture's view.
 
 use crate::desktop::parts::theme::{self, SUN};
 use crate::desktop::state::clock::Clock;
@@ -10,7 +10,7 @@ use crate::view::{Camera, View};
 use eframe::egui::{self, Align2, Color32, FontId, Pos2, Rect, Sense, Shape, Stroke, Vec2, pos2, vec2};
 use glam::DVec3;
 
-/// The ink over the picture, which is bright in both themes.
+/// The ink for the picture, which is bright in both themes.
 pub(in crate::desktop) const INK: Color32 = Color32::from_rgb(35, 38, 44);
 const PATH: Color32 = Color32::from_rgb(196, 116, 30);
 
@@ -99,7 +99,7 @@ pub(in crate::desktop) fn north(ui: &egui::Ui, view: &View, rect: Rect) {
                 View::Elevation(side) => side.axes(),
                 View::Plan(_) => [DVec3::X, DVec3::Y, DVec3::NEG_Z],
             };
-            // on level ground, seen from above as from the side
+            // in plan, whether seen from above or from the side
             let flat = DVec3::new(forward.x, forward.y, 0.0).normalize_or(up);
             vec2(right.y as f32, -(flat.y as f32))
         }
@@ -139,14 +139,14 @@ pub(in crate::desktop) fn scale_bar(ui: &egui::Ui, rect: Rect, metres_a_point: f
     label(&painter, pos2((left.x + right.x) / 2.0, right.y - 12.0), Align2::CENTER_CENTER, &text);
 }
 
-/// Gives a name to something that is only painted.
+/// Gives an accessible name to something that is only painted.
 fn named(ui: &egui::Ui, rect: Rect, name: String) {
     let id = ui.scope_id().with(name.split(':').next().unwrap_or_default());
     let response = ui.interact(rect, id, Sense::hover());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name.clone()));
 }
 
-/// Text with a light rim, legible over anything.
+/// Text with a light outline, legible on anything.
 pub(in crate::desktop) fn label(painter: &egui::Painter, at: Pos2, align: Align2, text: &str) {
     let font = FontId::proportional(12.0);
     for rim in [vec2(1.0, 0.0), vec2(-1.0, 0.0), vec2(0.0, 1.0), vec2(0.0, -1.0)] {

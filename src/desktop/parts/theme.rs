@@ -64,14 +64,14 @@ pub(in crate::desktop) fn set(context: &egui::Context) {
         spacing.interact_size.y = 24.0;
         spacing.menu_margin = egui::Margin::same(6);
         spacing.combo_width = 150.0;
-        // beside what it scrolls, and not over its right end; seen wherever there is more
+        // beside the scrolled area, and not over it; visible if there is more to see
         spacing.scroll.floating_allocated_width = 8.0;
         (spacing.scroll.floating_width, spacing.scroll.dormant_handle_opacity) = (4.0, 0.35);
-        // lists are seen whole
+        // lists are fully visible
         spacing.combo_height = 400.0;
         style.animation_time = 0.08;
     });
-    // where the system has no wish
+    // if the system has no preference
     context.options_mut(|options| options.fallback_theme = Theme::Light);
     context.set_visuals_of(Theme::Light, visuals(false));
     context.set_visuals_of(Theme::Dark, visuals(true));
@@ -79,7 +79,7 @@ pub(in crate::desktop) fn set(context: &egui::Context) {
 
 fn visuals(dark: bool) -> egui::Visuals {
     let gray = Color32::from_gray;
-    // paper and ink, or slate and chalk; a little warm either way
+    // paper and ink, or slate and chalk; both slightly warm
     let tone = |light: [u8; 3], dusk: [u8; 3]| {
         let [r, g, b] = if dark { dusk } else { light };
         Color32::from_rgb(r, g, b)

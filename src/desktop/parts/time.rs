@@ -13,7 +13,7 @@ use eframe::egui::{self, Align2, Color32, CornerRadius, FontId, Key, Rect, Respo
 impl Clock {
     /// The bar below the picture.
     pub(in crate::desktop) fn bar(&mut self, ui: &mut Ui) {
-        // at the longest: no other date is to change the rows
+        // room for the longest texts, so that no date changes the layout
         let zone = self.place.time_zone;
         let widest = format!("{zone} (UTC+00:00, daylight saving), tz {}", zone.version());
         let widest = theme::width_of(ui, &(widest + "azimuth 000.0° altitude −00.0° night"));
@@ -101,7 +101,7 @@ impl Clock {
     fn read(&mut self, which: usize, text: &str) -> Result<(), TypedError> {
         if which == 0 {
             let date = typed::date(text)?;
-            // the year is checked with the day
+            // checks the year, too
             Day::of(&self.place, date)?;
             self.set_date(date);
         } else {
@@ -122,7 +122,7 @@ impl Clock {
         self.sun_events(ui, rect, &response);
         handle(ui, pos2(x(self.secs()), rect.center().y), &response, self.now.night);
         if let Some(share) = dragged(&response, rect) {
-            // to the minute, as the fields say it
+            // to the minute, as the fields show it
             self.set_secs((share * length / 60.0).round() * 60.0);
         }
         let steps = keys(ui, &response);
@@ -139,7 +139,7 @@ impl Clock {
         let [night, day] = if dark { [40, 74] } else { [196, 236] };
         let (night, day) = (Color32::from_rgb(night - 8, night, night + 14), Color32::from_rgb(day + 6, day, day - 14));
         let painter = ui.painter();
-        // the daylight, from the sun itself: polar day and night need no rule of their own
+        // computed from the sun itself, so polar day and night need no special case
         painter.rect_filled(rect, CornerRadius::same(4), night);
         let mut up: Option<f64> = None;
         for (index, instant) in self.day.iter().enumerate() {
@@ -189,7 +189,7 @@ impl Clock {
             let Some(event) = event else { continue };
             let at = x((event - self.midnight).num_seconds() as f64);
             painter.vline(at, rect.y_range(), Stroke::new(1.5, theme::ACCENT));
-            // to the nearest minute, as drawings say it
+            // to the nearest minute, as in drawings
             let text = format!("{name} {}", (event + TimeDelta::seconds(30)).format("%H:%M"));
             let (at, font) = (pos2(at, rect.top() - 1.0), FontId::proportional(11.0));
             let letters = painter.text(at, Align2::CENTER_BOTTOM, &text, font, ink);
@@ -264,7 +264,7 @@ fn dragged(response: &Response, rect: Rect) -> Option<f64> {
     Some(f64::from((pointer.x - rect.left()) / rect.width()).clamp(0.0, 1.0))
 }
 
-/// The steps that the arrow keys move a slider with the focus, with Shift twelve at a time.
+/// The steps that the arrow keys move a focused slider, with Shift twelve at a time.
 fn keys(ui: &Ui, response: &Response) -> i64 {
     if !response.has_focus() {
         return 0;
@@ -274,8 +274,8 @@ fn keys(ui: &Ui, response: &Response) -> i64 {
     steps(ui.ctx(), Key::ArrowLeft, Key::ArrowRight, 12)
 }
 
-/// How often one key was pressed more than another. With Shift each press counts as `many`; each press carries its own
-/// Shift, which may be up again when the frame begins.
+/// The difference between the presses of two keys. With Shift each press counts as `many`; each press carries its own
+/// Shift state, which may have changed when the frame begins.
 pub(in crate::desktop) fn steps(context: &egui::Context, back: Key, on: Key, many: i64) -> i64 {
     context.input(|input| {
         let step = |event: &egui::Event| match event {

@@ -1,4 +1,4 @@
-//! The picture, and what the pointer does on it.
+//! The picture, and pointer input on it.
 
 use crate::choice::{Method, Settings};
 use crate::desktop::parts::screen::Print;
@@ -20,34 +20,34 @@ use eframe::egui_wgpu::RenderState;
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
-/// How long everything must be still before a better picture is drawn, seconds.
+/// The time without change before a better picture is drawn, seconds.
 const STILL_SECS: f64 = 0.22;
 /// The longest time of a quick look, seconds, which decides its size.
 const QUICK_SECS: f64 = 0.06;
-/// The number of points of the sun's disc to which rays are cast.
+/// The number of points of the sun's disc for ray casting.
 pub(in crate::desktop) const DISC_SAMPLES: u32 = 32;
 
 /// The picture that is shown, and the one that is wanted.
 pub(in crate::desktop) struct Viewer {
     /// The position of the eye.
     pub(in crate::desktop) eye: Eye,
-    /// Whether everything is to be shown once the picture's proportion is known.
+    /// Whether everything should be shown once the picture's aspect ratio is known.
     fits: bool,
     shown: Option<StagePicture>,
     print: Option<Print>,
     wished: Option<Wish>,
-    /// The best picture of the last request, as of the last frame, and when the request changed.
+    /// The best picture of the last frame's request, and when the request changed.
     best: Option<Wish>,
     moved_at: f64,
-    /// The share of the full size that a quick look has.
+    /// The scale of a quick look relative to the full size.
     scale: f64,
     /// Why there is no picture.
     pub(in crate::desktop) fault: Option<String>,
-    /// What lies under the pointer.
+    /// What is under the pointer.
     pub(in crate::desktop) under: Option<PickedPoint>,
 }
 
-/// What the view is to show.
+/// What the view should show.
 pub(in crate::desktop) struct ViewRequest<'a> {
     /// The site.
     pub(in crate::desktop) project: &'a Project,
@@ -55,7 +55,7 @@ pub(in crate::desktop) struct ViewRequest<'a> {
     pub(in crate::desktop) number: u64,
     /// How its shadows are shown.
     pub(in crate::desktop) choice: ShadowSettings,
-    /// The hours that were found, if they are to be shown.
+    /// The computed hours, if they should be shown.
     pub(in crate::desktop) result: Option<&'a Arc<StudyResult>>,
     /// Whether the sun's path is drawn over it.
     pub(in crate::desktop) sun_path: bool,
@@ -85,7 +85,7 @@ impl Viewer {
         self.fits = true;
     }
 
-    /// Shows everything from all stands, because the scene is another one.
+    /// Shows everything from all stands, after a change of scene.
     pub(in crate::desktop) fn fit_all(&mut self, project: &Project) {
         self.eye.forget_flat();
         let stand = std::mem::replace(&mut self.eye.stand, Stand::Perspective);
@@ -109,7 +109,7 @@ impl Viewer {
         self.best.as_ref()
     }
 
-    /// Whether the picture that is shown is the best one of what is requested.
+    /// Whether the picture on the screen is the best one for the request.
     #[cfg(feature = "test-hooks")]
     pub(in crate::desktop) fn is_settled(&self) -> bool {
         let both = self.shown.as_ref().zip(self.best.as_ref());
@@ -133,8 +133,8 @@ impl Viewer {
         }
     }
 
-    /// Chooses the size of the next quick look by how long rays took for this picture. Sizes differ by steps,
-    /// since the stage prepares the view again for each new size; a size grows only when there is time to spare.
+    /// Chooses the size of the next quick look from the time that rays took for this picture. Sizes differ by steps,
+    /// since the stage prepares the view again for each new size; the size grows only if there is time to spare.
     fn adapt(&mut self, shown: &StagePicture) {
         const SIZES: [f64; 8] = [0.12, 0.18, 0.25, 0.35, 0.5, 0.7, 0.85, 1.0];
         let Some(best) = &self.best else { return };
@@ -205,7 +205,7 @@ impl Viewer {
             let side = |points: f32| (f64::from(points) * pixels * scale).round().clamp(16.0, 8192.0) as u32;
             (side(rect.width()), side(rect.height()))
         };
-        // an adapter draws twice as fine, which the screen then smooths
+        // an adapter draws at twice the resolution, which the screen then smooths
         let best = self.best_wish(sized(if software { 1.0 } else { 2.0 }), software, request, clock);
         if self.best.as_ref().is_none_or(|before| !before.is_same(&best)) {
             // the first picture is the best one at once
@@ -237,7 +237,7 @@ impl Viewer {
         };
         let style = Style {
             focus_m: self.eye.camera((1, 1)).target.distance(self.eye.camera((1, 1)).eye),
-            // one pixel wide they are heavier than on paper
+            // lines one pixel wide look heavier than on paper
             lines: if software { 0.62 } else { 1.0 },
             wide_lines: !software,
             tinted: choice.tinted,
@@ -301,7 +301,7 @@ impl Viewer {
         }
     }
 
-    /// What drew the picture, at its corner.
+    /// The provenance of the picture, in its corner.
     fn status(&self, ui: &Ui, rect: Rect, software: bool, request: &ViewRequest<'_>) {
         let Some(shown) = &self.shown else { return };
         let provenance = &shown.provenance;

@@ -7,13 +7,13 @@ use crate::study::Outcome;
 use std::path::Path;
 use std::sync::Arc;
 
-/// The state with which the open site is compared.
+/// The state that the open site is compared with.
 #[derive(Clone)]
 pub(in crate::desktop) struct BeforeState {
     /// The state as it was written.
     pub(in crate::desktop) before: Arc<WrittenSite>,
     /// Its models. Those of a kept state stay as they were, whatever happens to their files; those of another file are
-    /// that file's.
+    /// read from it.
     pub(in crate::desktop) models: Models,
     /// The hours of a state that was kept.
     pub(in crate::desktop) result: Option<Arc<StudyResult>>,
@@ -44,12 +44,12 @@ impl BeforeState {
 /// Reads another file as the state before. If it has no place, it gets that of the open site.
 ///
 /// # Errors
-/// As the command reads it.
+/// The command's errors of reading it.
 pub(in crate::desktop) fn read(path: &Path, project: &Project) -> Result<WrittenSite, SiteError> {
     WrittenSite::read_beside(path, &project.written, &Overrides::default())
 }
 
-/// The name for people of the path from which a state came.
+/// The name of the path that a state came from.
 pub(in crate::desktop) fn name_of(before: &WrittenSite) -> String {
     let named = before.site.place.as_ref().and_then(|place| place.name.clone());
     named.filter(|name| !name.trim().is_empty()).unwrap_or_else(|| project::name_of(Path::new(&before.file)))

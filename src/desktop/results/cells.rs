@@ -1,11 +1,11 @@
-//! The colours of a plan's cells as they lie over the scene, and the cell below a point.
+//! The colours of a plan's cells on the scene, and the cell below a point.
 
 use crate::export::figure::scale::Rgb;
 use crate::picture::HoursRaster;
 use crate::view::{Grid, Surface};
 use glam::DVec3;
 
-/// The colours of a plan's cells, in the form that the picture takes.
+/// The colours of a plan's cells, in the form that the picture uses.
 pub(in crate::desktop) fn raster<'a>(grid: &Grid, colours: &'a [Rgb], height_m: &'a [f32]) -> HoursRaster<'a> {
     let size = (grid.width, grid.height);
     HoursRaster { corner: [grid.west, grid.north], cell: grid.cell, size, colours, height_m }

@@ -1,4 +1,4 @@
-//! What a change does to the sun: from another state of the site (before) to the open one (after).
+//! How a change affects the sun: from another state of the site (before) to the open one (after).
 
 use crate::deliver::Sink;
 use crate::deliver::comparison::write_comparison;
@@ -14,7 +14,7 @@ use crate::study::{CompareOutcome, OnEvent, Stopwatch};
 use glam::DVec3;
 use std::sync::Arc;
 
-/// A change that was found.
+/// A computed change.
 pub(in crate::desktop) struct ChangeResult {
     /// The state before, as it was requested.
     pub(in crate::desktop) before: Arc<WrittenSite>,
@@ -29,7 +29,7 @@ pub(in crate::desktop) struct ChangeResult {
 }
 
 impl ChangeResult {
-    /// The cells' colours, in the form that the picture takes.
+    /// The cells' colours, in the form that the picture uses.
     pub(in crate::desktop) fn raster(&self) -> HoursRaster<'_> {
         raster(self.outcome.comparison.grid(), &self.colours.of_cells, &self.outcome.surfaces[1].height_m)
     }
@@ -57,7 +57,7 @@ impl ChangeResult {
         &self.pair.before.notes
     }
 
-    /// The names of the states for people.
+    /// The names of the states.
     pub(in crate::desktop) fn names(&self) -> &[String; 2] {
         &self.pair.names
     }
@@ -67,7 +67,7 @@ impl ChangeResult {
         comparison::rows(&self.outcome.comparison, &self.pair.after.track)
     }
 
-    /// How much was compared.
+    /// The extent of the comparison.
     pub(in crate::desktop) fn extent(&self) -> String {
         comparison::extent(&self.outcome.comparison)
     }

@@ -1,4 +1,4 @@
-//! The hours of sun on the model itself: façades, roofs and undersides, texel by texel.
+//! The hours of sun on the models' surfaces: façades, roofs and undersides, texel by texel.
 
 use crate::choice::{Engine, Method, Subject};
 use crate::deliver::Sink;
@@ -23,18 +23,17 @@ pub(in crate::desktop) struct Facades {
     pub(in crate::desktop) legend: (String, Vec<(Rgb, String)>),
 }
 
-/// The technique that judges patches, given the window's technique: that one if it can, otherwise the faster of those
-/// that can.
+/// The technique that judges patches: the window's technique if it can, otherwise the fastest that can.
 pub(in crate::desktop) fn method(settings: &WindowSettings) -> Method {
     let method = settings.shown.method;
     if method.row().draws(Engine::Auto, Subject::Patches) { method } else { Method::Auto }
 }
 
 impl Facades {
-    /// Lays the hours over a picture of the site for which they were found, or of its visible part.
+    /// Shows the hours on a picture of the site for which they were computed, or of its visible part.
     ///
     /// # Errors
-    /// Where the adapter cannot hold them.
+    /// If the adapter cannot hold them.
     pub(in crate::desktop) fn lay(
         &self,
         picture: &mut Picture,

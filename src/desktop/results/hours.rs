@@ -1,4 +1,4 @@
-//! The hours of shadow on ground and roofs, as they lie over the scene.
+//! The hours of shadow on ground and roofs, as shown on the scene.
 
 use crate::deliver::Sink;
 use crate::deliver::profile::{Hours, ProfileRequest, write_hours};
@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 /// The hours of shadow on ground and roofs.
 pub(in crate::desktop) struct ShadowHours {
-    /// The answer, with each instant's shadow if outlines can be drawn of the study.
+    /// The answer, with each instant's shadow if the study's outlines can be drawn.
     hours: Hours,
     /// Its sums.
     shaded: Arc<Shaded>,

@@ -1,4 +1,4 @@
-//! The results of a site's study, ready to be laid over the scene.
+//! The results of a site's study, ready to be shown on the scene.
 
 pub(in crate::desktop) mod before;
 pub(in crate::desktop) mod cells;
@@ -27,19 +27,19 @@ use hours::ShadowHours;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// What was found, ready to be laid over the scene.
+/// A result, ready to be shown on the scene.
 pub(in crate::desktop) struct StudyResult {
     /// Grows with every answer.
     pub(in crate::desktop) number: u64,
-    /// The open site for which it was found.
+    /// The open site for which it was computed.
     pub(in crate::desktop) site: Arc<Site>,
     /// The technique that was requested.
     pub(in crate::desktop) method: Method,
     /// The same site as it was written.
     pub(in crate::desktop) written: SiteFile,
-    /// The mark of its models.
+    /// The hash of its models.
     pub(in crate::desktop) mark: u64,
-    /// What was noted while it was found, beside what is known of its site.
+    /// Notes from its computation, besides those on the site.
     pub(in crate::desktop) notes: Vec<Message>,
     /// The findings.
     pub(in crate::desktop) found: Findings,
@@ -56,7 +56,7 @@ pub(in crate::desktop) enum Findings {
 }
 
 impl StudyResult {
-    /// The same with what was noted while it was found: of the notes on the models only those on a state before.
+    /// Adds the notes from its computation: of those on models, only the ones on a state before.
     pub(in crate::desktop) fn noted(mut self, mut notes: Vec<Message>) -> StudyResult {
         let after = self.change().map_or(&[][..], |change| &change.pair.after.notes);
         notes.retain(|note| !self.site.notes.contains(note) && !after.contains(note));
@@ -64,10 +64,10 @@ impl StudyResult {
         self
     }
 
-    /// Lays the findings over a picture of the site, or of its visible part.
+    /// Shows the findings on a picture of the site, or of its visible part.
     ///
     /// # Errors
-    /// Where the adapter cannot hold it.
+    /// If the adapter cannot hold them.
     pub(in crate::desktop) fn lay(&self, picture: &mut Picture, visible: &Site) -> Result<(), ShadowError> {
         match &self.found {
             Findings::Shadow(hours) => picture.lay_hours(Some(hours.raster())),
@@ -86,14 +86,14 @@ impl StudyResult {
         }
     }
 
-    /// Whether they can lie over another site: hours on the plan can wherever heights agree.
+    /// Whether they can be shown on another site: hours on the plan can wherever heights match.
     pub(in crate::desktop) fn lies_on(&self, site: &Site) -> bool {
         let ours = &self.site;
         let same_mesh = || ours.mesh.vertices == site.mesh.vertices && ours.mesh.faces == site.mesh.faces;
         !matches!(self.found, Findings::Facades(_)) || (ours.receives == site.receives && same_mesh())
     }
 
-    /// What they say of a point, if its surface is the one that was counted.
+    /// Their value at a point, if its surface is the one that was judged.
     pub(in crate::desktop) fn said(&self, under: &PickedPoint, unit: Unit) -> Option<String> {
         match &self.found {
             Findings::Shadow(hours) => hours.said(under.point),
@@ -102,7 +102,7 @@ impl StudyResult {
         }
     }
 
-    /// The meaning of their colours: a heading, and each colour.
+    /// Their legend: a heading, and each colour.
     pub(in crate::desktop) fn legend(&self) -> (String, Vec<(Rgb, String)>) {
         match &self.found {
             Findings::Shadow(hours) => hours.legend(),
@@ -123,7 +123,7 @@ impl StudyResult {
     /// Writes its files, or a drawing of its lines, as the command does.
     ///
     /// # Errors
-    /// Where the study has no such lines, or the files cannot be written.
+    /// If the study has no such lines, or the files cannot be written.
     pub(in crate::desktop) fn write(
         &self,
         lines: Option<Lines>,
@@ -142,7 +142,7 @@ impl StudyResult {
         }
     }
 
-    /// Whether they are what the settings request of the site.
+    /// Whether they match the settings' request for the site.
     pub(in crate::desktop) fn is_asked(&self, project: &Project, settings: &WindowSettings) -> bool {
         let is_found = match (&self.found, &settings.before) {
             (Findings::Change(change), Some(before)) => change.before == *before,
@@ -158,7 +158,7 @@ impl StudyResult {
         let same_models = then.model == now.model && self.mark == project.models.mark();
         let of_models = same_models && then.ground == now.ground && then.place == now.place;
         let of_study = then.study == now.study && then.plan == now.plan;
-        // undone and redone it is another site, and the same
+        // after undo and redo it is a different object, but the same site
         is_found && self.method == method && (Arc::ptr_eq(&self.site, &project.site) || (of_models && of_study))
     }
 

@@ -1,5 +1,5 @@
-//! The device on which pictures are drawn. It is not the window's, so that drawing never blocks the window. If it
-//! fails, it is replaced by another one; if devices fail repeatedly, pictures are drawn without any.
+//! The device that draws pictures. It is not the window's, so that drawing never blocks the window. If it fails, it is
+//! replaced by another one; if devices fail repeatedly, pictures are drawn without any.
 
 use crate::gpu::{Gpu, GpuError};
 #[cfg(feature = "test-hooks")]
@@ -15,7 +15,7 @@ pub(in crate::desktop) struct Easel {
     software: AtomicBool,
     given_up: AtomicBool,
     note: Mutex<Option<String>>,
-    /// The number of devices that are to be lost as soon as they are opened.
+    /// The number of devices to lose as soon as they are opened.
     #[cfg(feature = "test-hooks")]
     to_lose: AtomicU32,
 }
@@ -36,12 +36,12 @@ impl Easel {
         }
     }
 
-    /// Whether pictures are drawn by the processor: by a software adapter, or without any.
+    /// Whether the processor draws pictures: by a software adapter, or without an adapter.
     pub(in crate::desktop) fn is_software(&self) -> bool {
         self.software.load(Ordering::Acquire)
     }
 
-    /// Whether they are drawn without any adapter.
+    /// Whether pictures are drawn without an adapter.
     pub(in crate::desktop) fn is_given_up(&self) -> bool {
         self.given_up.load(Ordering::Acquire)
     }
@@ -64,7 +64,7 @@ impl Easel {
             Ok(gpu) => return Some(self.take(&mut at_hand, gpu)),
             Err(error) => error,
         };
-        // an adapter whose driver was reset is found again
+        // an adapter whose driver was reset must be found again
         match Gpu::open().or_else(|_| Gpu::open_software()) {
             Ok(gpu) => {
                 self.tell(format!("{}; pictures are drawn by '{}'", error.why(), gpu.name()));
@@ -74,8 +74,8 @@ impl Easel {
         }
     }
 
-    /// Replaces a device that failed at a picture that many times: by a new one on the same adapter, then by one on a
-    /// software adapter, then by none.
+    /// Replaces a device after a number of failures of the same picture: by a new one on the same adapter, then by one
+    /// on a software adapter, then by none.
     pub(in crate::desktop) fn replace(&self, error: &GpuError, failures: usize) -> Option<Arc<Gpu>> {
         *locked(&self.gpu) = None;
         match failures {
@@ -116,7 +116,7 @@ impl Easel {
         Arc::clone(at_hand.insert(Arc::new(gpu)))
     }
 
-    /// Loses the device, as if its driver was reset, and that many further ones as soon as they are opened.
+    /// Loses the device, as if its driver was reset, and then that many further ones as soon as they are opened.
     #[cfg(feature = "test-hooks")]
     pub(in crate::desktop) fn lose(&self, further: u32) {
         self.to_lose.store(further, Ordering::Release);

@@ -1,7 +1,7 @@
 //! The stage draws the picture on its own thread and its own device. It takes the newest wish, drops older ones, and
 //! hands over a texture of the window's device, which the window shows unchanged.
 //!
-//! With one device for both, the window could not be resized while a picture is drawn: wgpu refuses to configure a
+//! With one device for both, the window could not be resized while a picture is drawn: wgpu does not configure a
 //! surface while another thread submits work, and waits for all work that was submitted before.
 
 pub(in crate::desktop) mod easel;
@@ -36,16 +36,16 @@ pub(in crate::desktop) struct StagePicture {
     pub(in crate::desktop) wish: Wish,
     /// What drew it.
     pub(in crate::desktop) provenance: Provenance,
-    /// Whether it shows only sun and shadow, without what lies over them.
+    /// Whether it shows only sun and shadow, without overlays.
     pub(in crate::desktop) plain: bool,
-    /// The time until the adapter had all of the work, seconds, as far as it depends on the picture's size. The time
-    /// that the adapter then needs depends on the window's frames as well.
+    /// The time until all of the work was submitted to the adapter, seconds, as far as it depends on the picture's
+    /// size. The time that the adapter then needs depends on the window's frames as well.
     pub(in crate::desktop) secs: f64,
     /// The meaning of the colours of a diagram.
     pub(in crate::desktop) legend: Option<Colours>,
 }
 
-/// The drawing thread, as the window sees it.
+/// The window's handle on the drawing thread.
 pub(in crate::desktop) struct Stage {
     shared: Arc<StageWorker>,
 }
@@ -79,7 +79,7 @@ impl Stage {
         Stage { shared }
     }
 
-    /// Wishes for a picture. A wish that was not begun yet is forgotten.
+    /// Requests a picture. An earlier wish that was not begun yet is dropped.
     pub(in crate::desktop) fn wish(&self, wish: Wish) {
         if let Ok(mut next) = self.shared.next.lock() {
             *next = Some(wish);
@@ -98,13 +98,13 @@ impl Stage {
         self.shared.easel.note()
     }
 
-    /// Whether it draws, or is about to.
+    /// Whether it is drawing, or about to.
     #[cfg(feature = "test-hooks")]
     pub(in crate::desktop) fn is_busy(&self) -> bool {
         self.shared.is_busy()
     }
 
-    /// Whether it draws by the processor.
+    /// Whether the processor draws.
     pub(in crate::desktop) fn is_software(&self) -> bool {
         self.shared.easel.is_software()
     }
@@ -118,7 +118,7 @@ impl Stage {
 
 impl Drop for Stage {
     fn drop(&mut self) {
-        // not between a worker's look and its sleep
+        // locked, so that a worker cannot miss this between its check and its sleep
         let next = self.shared.next.lock();
         self.shared.over.store(true, Ordering::Release);
         drop(next);
@@ -126,18 +126,18 @@ impl Drop for Stage {
     }
 }
 
-/// What is kept from one picture to the next, separately for quick looks and for the best pictures, so that neither
-/// changes the other's size.
+/// What is kept from one picture to the next, separately for quick looks and for best pictures, so that neither changes
+/// the other's size.
 #[derive(Default)]
 struct StageCache {
-    /// The site's number, and the site with what draws it.
+    /// The site's number, and its live drawing.
     live: Option<(u64, Live)>,
     hours: Option<u64>,
-    /// What was drawn last.
+    /// The last wish.
     wish: Option<Wish>,
-    /// The picture as it is drawn, and as the window has it.
+    /// The picture on the stage's device, and on the window's.
     target: Option<[wgpu::Texture; 2]>,
-    /// What draws without a device.
+    /// The drawer without a device.
     plain: Option<PlainDrawer>,
 }
 
@@ -159,7 +159,7 @@ impl StageWorker {
         }
     }
 
-    /// Prepares what quick looks need while there is no other work, so that the first movement does not wait for it.
+    /// Prepares for quick looks while there is no other work, so that the first movement does not wait.
     fn get_ready(&self, kept: &mut [StageCache; 2]) {
         let [best, quick] = &*kept;
         let (Some(wish), false) = (&best.wish, self.is_busy() || self.easel.is_given_up()) else { return };
@@ -173,11 +173,11 @@ impl StageWorker {
         };
         let way = if self.easel.is_software() { LiveMethod::quickest() } else { wish.way };
         let small = Wish { view, way, overlay: [false; 2], diagram: None, quick: true, ..wish.clone() };
-        // what is wrong here will be told when it is asked for
+        // errors here will be reported when the picture is requested
         let _ = self.draw_somewhere(kept, &small);
     }
 
-    /// Draws on the device at hand; where that fails on another, and where all fail on none.
+    /// Draws on the current device; if that fails, on another; and if all fail, on none.
     fn draw_somewhere(&self, kept: &mut [StageCache; 2], wish: &Wish) -> Result<StagePicture, String> {
         let mut failures = 0;
         let mut gpu = self.easel.gpu();
@@ -189,7 +189,7 @@ impl StageWorker {
             };
             *its = StageCache::default();
             let Some(lost) = error.lost_device() else { return Err(error.in_words(&PanelWords)) };
-            // nothing of it can be used again
+            // none of it can be used again
             *kept = Default::default();
             drop(device);
             failures += 1;
@@ -229,7 +229,7 @@ impl StageWorker {
 
     fn draw(&self, gpu: &Arc<Gpu>, kept: &mut StageCache, wish: Wish) -> Result<StagePicture, StudyError> {
         let tint = |live: &mut Live| live.picture().tint(face_colours(&wish.site));
-        // one of another scene goes first, with its memory
+        // frees the memory of another scene first
         let at_hand = kept.live.take().and_then(|(number, mut live)| {
             if number != wish.number {
                 live.change_to(&wish.site).then(|| tint(&mut live))?;
@@ -271,7 +271,7 @@ impl StageWorker {
         let target = target.unwrap_or_else(|| [Picture::target(gpu, &wish.view), self.shown_texture(size)]);
         let provenance = live.draw(&wish.way, wish.to_sun, &wish.style, &target[0])?;
         let secs = started.elapsed().as_secs_f64();
-        // no wish piles up on another: this one is finished before the next is taken
+        // waits for the copy, so that pictures do not queue up
         readback::hand_over(gpu, &target[0], &self.render.queue, &target[1])?;
         let texture = target[1].clone();
         kept.target = Some(target);
@@ -279,7 +279,7 @@ impl StageWorker {
         Ok(StagePicture { texture, wish, provenance, plain: false, secs, legend })
     }
 
-    /// A picture of the window's device.
+    /// A texture on the window's device.
     fn shown_texture(&self, (width, height): (u32, u32)) -> wgpu::Texture {
         let usage =
             wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST | wgpu::TextureUsages::COPY_SRC;
@@ -296,7 +296,7 @@ impl StageWorker {
     }
 }
 
-/// The colour of every face that is visible, as the picture takes them.
+/// The colours of all visible faces, in the form that the picture uses.
 fn face_colours(site: &Site) -> impl Iterator<Item = [u8; 3]> {
     let colours = component_colours(&site.mesh, &site.casts);
     let seen = site.mesh.components.iter().zip(colours).zip(&site.receives).filter(|(_, seen)| **seen);

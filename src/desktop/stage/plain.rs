@@ -13,16 +13,16 @@ use crate::view::Mask;
 
 /// What is kept from one picture to the next.
 pub(in crate::desktop) struct PlainDrawer {
-    /// The site's number, and to how many points of the sun rays go.
+    /// The site's number, and the number of the sun's points.
     of: (u64, Option<u32>),
     scene: Scene,
     rays: RayCast,
 }
 
-/// Draws what is wished, without what lies over sun and shadow: the pixels, row 0 first, and what drew.
+/// Draws a wish, without overlays: the pixels, row 0 first, and the provenance.
 ///
 /// # Errors
-/// What ray casting says.
+/// Errors of ray casting.
 pub(in crate::desktop) fn draw(
     kept: &mut Option<PlainDrawer>,
     wish: &Wish,

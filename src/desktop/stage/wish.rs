@@ -1,4 +1,4 @@
-//! The wish: what the window wants to see.
+//! The wish: the picture that the window requests.
 
 use crate::desktop::results::StudyResult;
 use crate::export::figure::Diagram;
@@ -9,28 +9,28 @@ use crate::view::View;
 use glam::DVec3;
 use std::sync::Arc;
 
-/// What the window wishes to see.
+/// The picture that the window requests.
 #[derive(Clone)]
 pub(in crate::desktop) struct Wish {
-    /// The site without what is hidden, and which one of those that were loaded.
+    /// The site without hidden components.
     pub(in crate::desktop) site: Arc<Site>,
-    /// Grows with every site loaded.
+    /// The number of the site, which grows with every site loaded.
     pub(in crate::desktop) number: u64,
-    /// With the picture's size in pixels.
+    /// The view, with the picture's size in pixels.
     pub(in crate::desktop) view: View,
-    /// How shadows are found.
+    /// The method for shadows.
     pub(in crate::desktop) way: LiveMethod,
     /// The unit vector to the sun.
     pub(in crate::desktop) to_sun: DVec3,
     /// How the picture is drawn.
     pub(in crate::desktop) style: Style,
-    /// Hours to lie over the scene.
+    /// Hours to show on the scene.
     pub(in crate::desktop) hours: Option<Arc<StudyResult>>,
-    /// The volumes and the silhouette over it.
+    /// Whether volumes and silhouette are shown over it.
     pub(in crate::desktop) overlay: [bool; 2],
-    /// What counting took, instead.
+    /// A diagram of counting, instead of sun and shadow.
     pub(in crate::desktop) diagram: Option<Diagram>,
-    /// Something moves: this is a quick look, and a better one will be wished for.
+    /// Whether this is a quick look during movement, to be followed by a better picture.
     pub(in crate::desktop) quick: bool,
 }
 

@@ -1,4 +1,4 @@
-//! One or several models without a site file; the window asks for their place.
+//! Models without a site file. The window asks for their place.
 
 use crate::desktop::state::words::PanelWords;
 use crate::message::{Field, Worded};
@@ -7,26 +7,26 @@ use crate::site::{FieldLocation, SiteError};
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
-/// Degrees by which a model may be turned.
+/// The angles by which a model may be turned, degrees.
 pub(in crate::desktop) const NORTH: RangeInclusive<f64> = -360.0..=360.0;
 
-/// A model that says not where it stands.
+/// Models without a place.
 #[derive(Clone, Debug)]
 pub(in crate::desktop) struct BareModel {
     /// The model's file.
     pub(in crate::desktop) path: PathBuf,
-    /// Further models, which stand in the same site.
+    /// Further models of the same site.
     pub(in crate::desktop) beside: Vec<PathBuf>,
-    /// What was answered so far, as typed.
+    /// The typed place.
     pub(in crate::desktop) place: String,
-    /// Degrees clockwise from the model's north to true north, as typed.
+    /// The typed angle: degrees clockwise from the model's north to true north.
     pub(in crate::desktop) north: String,
-    /// Why what was typed for each of the two is not taken.
+    /// Why each of the two texts is refused.
     pub(in crate::desktop) faults: [Option<String>; 2],
 }
 
 impl BareModel {
-    /// Nothing is answered yet.
+    /// No text is typed yet.
     pub(in crate::desktop) fn new(paths: Vec<PathBuf>) -> BareModel {
         let mut paths = paths.into_iter();
         let path = paths.next().unwrap_or_default();
@@ -36,7 +36,7 @@ impl BareModel {
     /// Latitude and longitude, degrees.
     ///
     /// # Errors
-    /// What is no place.
+    /// Text that is not a place.
     pub(in crate::desktop) fn place(&self) -> Result<[f64; 2], SiteError> {
         typed::place(&self.place).map_err(|error| SiteError::typed(FieldLocation::Field(Field::Place), error))
     }
@@ -44,7 +44,7 @@ impl BareModel {
     /// Degrees clockwise from the model's north to true north.
     ///
     /// # Errors
-    /// What is no number, or not within a turn.
+    /// Text that is not a number, or a number beyond a full turn.
     pub(in crate::desktop) fn north(&self) -> Result<f64, TypedError> {
         match self.north.trim() {
             "" => Ok(0.0),
@@ -52,7 +52,7 @@ impl BareModel {
         }
     }
 
-    /// Whether all that was typed can be read; what cannot be is told beside its field.
+    /// Whether both texts can be read. Errors are shown beside the fields.
     pub(in crate::desktop) fn is_read(&mut self) -> bool {
         let words = |error: TypedError| error.in_words(&PanelWords);
         self.faults = [typed::place(&self.place).err().map(words), self.north().err().map(words)];

@@ -1,10 +1,10 @@
-//! The instant that is shown, and what the sun does around it.
+//! The clock: the shown instant, and the sun's events around it.
 
 use crate::sun::{Air, Day, DayWindow, Instant, Place, Sky, Zone, delta_t_secs};
 use chrono::{DateTime, Datelike, Days, NaiveDate, NaiveTime, TimeDelta, TimeZone, Timelike};
 use eframe::egui;
 
-/// What plays.
+/// An animation of the clock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::desktop) enum Play {
     /// The hours of the day.
@@ -13,7 +13,7 @@ pub(in crate::desktop) enum Play {
     Year,
 }
 
-/// The instant that is shown, and what the sun does around it.
+/// The clock: the shown instant, and the sun's events around it.
 #[derive(Clone)]
 pub(in crate::desktop) struct Clock {
     pub(in crate::desktop) place: Place,
@@ -22,31 +22,31 @@ pub(in crate::desktop) struct Clock {
     pub(in crate::desktop) now: Instant,
     /// The first instant of its date.
     pub(in crate::desktop) midnight: DateTime<Zone>,
-    /// How long that date is, seconds: not always 24 h.
+    /// The length of that date, seconds: not always 24 h.
     pub(in crate::desktop) length_secs: f64,
     /// Sunrise, noon, sunset.
     pub(in crate::desktop) events: Day,
-    /// The date's instants, five minutes apart.
+    /// The instants of the date, five minutes apart.
     pub(in crate::desktop) day: Vec<Instant>,
-    /// Its full hours.
+    /// The date's full hours.
     pub(in crate::desktop) hours: Vec<(u32, Instant)>,
     /// The same for the solstices of the year.
     pub(in crate::desktop) solstices: [Vec<Instant>; 2],
     year: Option<i32>,
-    /// What is typed into the fields while it is.
+    /// Text in the fields while it is typed.
     pub(in crate::desktop) typed: [Option<String>; 2],
-    /// Why what was typed is no time.
+    /// Why the typed text is refused.
     pub(in crate::desktop) fault: Option<String>,
-    /// What plays.
+    /// The running animation.
     pub(in crate::desktop) play: Option<Play>,
-    /// How much of it is left: seconds of the day, or days of the year.
+    /// The rest of it: seconds of the day, or days of the year.
     left: f64,
-    /// The clock time that was asked for, which other dates keep, though some skip it.
+    /// The requested clock time, which stays the same on other dates, even if some skip it.
     clock_time: NaiveTime,
 }
 
 impl Clock {
-    /// A clock at a place, that shows an instant.
+    /// A clock at a place, which shows an instant.
     pub(in crate::desktop) fn new(place: &Place, refraction: bool, at: &Instant) -> Clock {
         let mut clock = Clock {
             place: place.clone(),
@@ -69,12 +69,11 @@ impl Clock {
         clock
     }
 
-    /// The date that is shown.
     pub(in crate::desktop) fn date(&self) -> NaiveDate {
         self.now.time.date_naive()
     }
 
-    /// Whether it already stands at this place.
+    /// Whether it is for this place.
     pub(in crate::desktop) fn is_at(&self, place: &Place, refraction: bool) -> bool {
         self.place == *place && self.refraction == refraction
     }
@@ -84,10 +83,10 @@ impl Clock {
         Sky { place: &self.place, delta_t_secs: delta_t_secs(time.to_utc()).ok()?, air }.at(time).ok()
     }
 
-    /// Shows another instant; one for which the sun is not known (before 1600, after 2999) is not taken.
+    /// Shows another instant. Years without a known sun (before 1600, after 2999) are ignored.
     pub(in crate::desktop) fn set(&mut self, time: DateTime<Zone>) {
         if let Some(instant) = self.instant(time) {
-            // what could not be read is past
+            // an earlier refused text is obsolete
             self.fault = None;
             let turns = instant.time.date_naive() != self.date();
             self.clock_time = instant.time.time();
@@ -98,7 +97,7 @@ impl Clock {
         }
     }
 
-    /// Shows so many seconds of the date.
+    /// Shows a time of the date, in seconds.
     pub(in crate::desktop) fn set_secs(&mut self, secs: f64) {
         let secs = secs.clamp(0.0, self.length_secs - 1.0).round() as i64;
         self.set(self.midnight + TimeDelta::seconds(secs));
@@ -115,12 +114,12 @@ impl Clock {
         }
     }
 
-    /// Moves by so many seconds.
+    /// Moves by seconds.
     pub(in crate::desktop) fn step_secs(&mut self, secs: i64) {
         self.set(self.now.time + TimeDelta::seconds(secs));
     }
 
-    /// Moves by so many days, at the same clock time.
+    /// Moves by days, at the same clock time.
     pub(in crate::desktop) fn step_days(&mut self, days: i64) {
         let days_on = Days::new(days.unsigned_abs());
         let date = if days < 0 { self.date().checked_sub_days(days_on) } else { self.date().checked_add_days(days_on) };
@@ -129,7 +128,7 @@ impl Clock {
         }
     }
 
-    /// How many seconds of its date have passed.
+    /// The seconds of its date that have passed.
     pub(in crate::desktop) fn secs(&self) -> f64 {
         (self.now.time - self.midnight).num_seconds() as f64
     }
@@ -157,7 +156,7 @@ impl Clock {
         (0..=length_secs as i64).step_by(300).filter_map(|secs| self.instant(from + TimeDelta::seconds(secs))).collect()
     }
 
-    /// Plays the whole day or the whole year, round to where it began; or stops.
+    /// Starts an animation of the whole day or year, which ends where it began; or stops it.
     pub(in crate::desktop) fn toggle(&mut self, play: Play) {
         self.play = if self.play == Some(play) { None } else { Some(play) };
         self.left = match play {
@@ -170,13 +169,13 @@ impl Clock {
         if self.date().leap_year() { 366.0 } else { 365.0 }
     }
 
-    /// Moves on what plays.
+    /// Advances the animation.
     pub(in crate::desktop) fn tick(&mut self, context: &egui::Context) {
         let Some(play) = self.play else { return };
         let passed = f64::from(context.input(|input| input.stable_dt)).min(0.5);
         match play {
             Play::Day => {
-                // whole seconds, as the clock has no others
+                // the clock has whole seconds
                 let step = (passed * 5400.0).ceil().min(self.left);
                 self.left -= step;
                 self.set_secs((self.secs() + step) % self.length_secs);

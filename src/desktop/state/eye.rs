@@ -6,19 +6,19 @@ use crate::view::{Camera, Elevation, Grid, Side, View};
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
-/// From where one looks.
+/// The position from which one looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::desktop) enum Stand {
     /// A perspective from any direction.
     Perspective,
-    /// Straight down, north up, without perspective.
+    /// Straight down, north up, in parallel projection.
     Plan,
-    /// Level at a side, along parallel rays.
+    /// Horizontally at a side, along parallel rays.
     Side(Side),
 }
 
 impl Stand {
-    /// All of them, with their names.
+    /// All stands, with their names.
     pub(in crate::desktop) const ALL: [(Stand, &'static str); 6] = [
         (Stand::Perspective, "Perspective"),
         (Stand::Plan, "Plan"),
@@ -28,7 +28,7 @@ impl Stand {
         (Stand::Side(Side::West), "From west"),
     ];
 
-    /// Where among those without perspective.
+    /// The index among those without perspective.
     fn flat(self) -> Option<usize> {
         match self {
             Stand::Perspective => None,
@@ -38,46 +38,45 @@ impl Stand {
     }
 }
 
-/// The eye and what it looks at. Each stand keeps its own.
+/// The eye and its target. Each stand has its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::desktop) struct Eye {
-    /// From where.
+    /// The stand.
     pub(in crate::desktop) stand: Stand,
-    /// The proportion of the picture in the window.
+    /// The aspect ratio of the picture in the window.
     pub(in crate::desktop) width_by_height: f64,
-    /// That of a sheet's.
+    /// The aspect ratio of a sheet.
     of_sheet: f64,
     /// The point in the middle of the perspective, metres.
     target: DVec3,
-    /// How far away from it the eye is, metres.
+    /// The distance of the eye from it, metres.
     distance: f64,
     /// The direction from the target to the eye, clockwise from north, radians.
     azimuth_rad: f64,
-    /// The same above the horizon, radians.
+    /// The altitude of that direction above the horizon, radians.
     altitude_rad: f64,
     /// The vertical field of view, radians.
     fov_rad: f64,
-    /// What the plan and the sides show; none before they are first seen.
+    /// The extents of the plan and the sides; `None` before they are first shown.
     flat: [Option<ParallelView>; Stand::ALL.len() - 1],
 }
 
-/// What a picture without perspective shows.
+/// The extent of a picture without perspective.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct ParallelView {
     /// The point in its middle, metres.
     target: DVec3,
-    /// How much it shows from its foot to its head, metres; of a side the sheet, which leaves nothing out that the
-    /// window shows.
+    /// Its height, metres; for a side, that of the sheet, which contains everything that the window shows.
     height_m: f64,
 }
 
 const LOWEST_RAD: f64 = 0.02;
 const HIGHEST_RAD: f64 = 1.55;
-/// What stays free on each side of all that is shown, a share of the picture.
+/// The margin on each side of the contents, as a share of the picture.
 const BESIDE: f64 = 0.04;
 
 impl Eye {
-    /// The eye of a site's camera, or before the side that it shows.
+    /// The eye of a site's camera, or in front of the side that it shows.
     pub(in crate::desktop) fn of(site: &Site, written: &CameraTable) -> Eye {
         let camera = &site.camera;
         let back = camera.eye - camera.target;
@@ -94,22 +93,22 @@ impl Eye {
             fov_rad: camera.fov_rad,
             flat: Default::default(),
         };
-        // where nobody says how much of a side is to be seen, it is all
+        // if the file does not say how much of a side to show, everything is shown
         if written.eye.is_some() || written.target.is_some() {
             eye.frame(camera.target, distance * eye.height_at_one());
         }
         eye
     }
 
-    /// The camera that a site file keeps: that of the perspective, or one that sees at its target as much as the side's
-    /// sheet shows.
+    /// The camera for the site file: that of the perspective, or one that sees at its target the same extent as the
+    /// side's sheet.
     pub(in crate::desktop) fn kept(&self) -> Camera {
         let ParallelView { target, height_m } = self.framed();
         let distance = height_m / self.of_sheet_in_window() / self.height_at_one();
         Eye { target, distance, ..*self }.camera((16, 10))
     }
 
-    /// How much of what a sheet is high the window is: what is wider than a sheet is as wide as that.
+    /// The height of the window's picture relative to a sheet's: a wider picture has the sheet's width.
     fn of_sheet_in_window(&self) -> f64 {
         match self.stand {
             Stand::Side(_) => (self.of_sheet / self.width_by_height).min(1.0),
@@ -117,7 +116,7 @@ impl Eye {
         }
     }
 
-    /// Whether it is known what is to be seen from here.
+    /// Whether the extent of this stand is known.
     pub(in crate::desktop) fn is_framed(&self) -> bool {
         self.stand.flat().is_none_or(|flat| self.flat[flat].is_some())
     }
@@ -127,7 +126,7 @@ impl Eye {
         self.flat = Default::default();
     }
 
-    /// The point in the middle of the window's picture, and how much is seen there from foot to head, metres.
+    /// The middle point of the window's picture, and its height there, metres.
     fn framed(&self) -> ParallelView {
         let of_perspective = ParallelView { target: self.target, height_m: self.distance * self.height_at_one() };
         let ParallelView { target, height_m } =
@@ -144,12 +143,12 @@ impl Eye {
         }
     }
 
-    /// How much the perspective shows from foot to head, a metre before the eye.
+    /// The height of the perspective's picture one metre in front of the eye.
     fn height_at_one(&self) -> f64 {
         2.0 * (self.fov_rad / 2.0).tan()
     }
 
-    /// What is seen in a picture of so many pixels.
+    /// The view for a picture of this size in pixels.
     pub(in crate::desktop) fn view(&self, (width, height): (u32, u32)) -> View {
         let (target, cell) = (self.framed().target, self.metres_a_pixel(height));
         if self.stand == Stand::Plan {
@@ -173,7 +172,7 @@ impl Eye {
         Camera { eye: target + back * self.distance, target, up: DVec3::Z, fov_rad, width, height }
     }
 
-    /// How large a pixel is at the target, metres.
+    /// The size of a pixel at the target, metres.
     pub(in crate::desktop) fn metres_a_pixel(&self, height: u32) -> f64 {
         self.framed().height_m / f64::from(height.max(1))
     }
@@ -190,27 +189,27 @@ impl Eye {
         }
     }
 
-    /// Turns around the target by so many pixels of a picture so high.
+    /// Turns around the target, given pixels in a picture of this height.
     pub(in crate::desktop) fn orbit(&mut self, pixels: DVec2, height: f64) {
         let turn = PI / height.max(1.0);
         self.azimuth_rad += pixels.x * turn;
         self.altitude_rad = (self.altitude_rad + pixels.y * turn).clamp(LOWEST_RAD, HIGHEST_RAD);
     }
 
-    /// Moves with the ground under the hand by so many pixels.
+    /// Pans by pixels, so that the ground follows the pointer.
     pub(in crate::desktop) fn pan(&mut self, pixels: DVec2, height: u32) {
         let [right, up] = self.across();
         let ParallelView { target, height_m } = self.framed();
         self.frame(target + (up * pixels.y - right * pixels.x) * self.metres_a_pixel(height), height_m);
     }
 
-    /// The point as far away as the target that lies so many pixels right of and below the middle.
+    /// The point at the target's distance that is this many pixels right of and below the middle.
     pub(in crate::desktop) fn beside_target(&self, from_middle: DVec2, height: u32) -> DVec3 {
         let [right, up] = self.across();
         self.framed().target + (right * from_middle.x - up * from_middle.y) * self.metres_a_pixel(height)
     }
 
-    /// Comes nearer by a factor, within limits of the distance, about a point: it stays where it is in the picture.
+    /// Zooms by a factor, within limits of the distance, about a point, which keeps its place in the picture.
     pub(in crate::desktop) fn zoom(&mut self, factor: f64, about: DVec3, limits: [f64; 2]) {
         let ParallelView { target, height_m } = self.framed();
         let [least, most] = limits.map(|distance| distance * self.height_at_one());
@@ -218,7 +217,7 @@ impl Eye {
         self.frame(about + (target - about) * (height / height_m), height);
     }
 
-    /// Shows a box whole in the window; a side stands on the ground, which is the box's lower end.
+    /// Shows a whole box in the window. A side stands on the ground, which is the box's lower end.
     pub(in crate::desktop) fn fit(&mut self, (low, high): (DVec3, DVec3)) {
         let (middle, half) = ((low + high) / 2.0, (high - low) / 2.0);
         if self.stand == Stand::Perspective {

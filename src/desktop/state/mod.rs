@@ -1,5 +1,5 @@
-//! What is open, what a person sets, and what is kept of that in case of a crash. Nothing is drawn here, and no thread
-//! runs.
+//! The state of the window: what is open, the settings, and their copy in case of a crash. Nothing is drawn here, and
+//! no thread runs.
 
 pub(in crate::desktop) mod bare_model;
 pub(in crate::desktop) mod clock;

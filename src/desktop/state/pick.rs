@@ -1,20 +1,20 @@
-//! What lies under a point of the picture, and how far the models reach.
+//! What is at a point of the picture, and the extent of the models.
 
 use crate::desktop::state::project::Project;
 use crate::view::{Surface, View};
 use eframe::egui::{self, Rect};
 use glam::DVec3;
 
-/// What lies under the pointer.
+/// What is under the pointer.
 #[derive(Clone, Debug)]
 pub(in crate::desktop) struct PickedPoint {
     /// Metres in the world frame.
     pub(in crate::desktop) point: DVec3,
-    /// The unit normal of its surface, on the seen side.
+    /// The unit normal of its surface, on the visible side.
     pub(in crate::desktop) normal: DVec3,
-    /// Which of the faces that receive, hidden ones among them; none on the ground.
+    /// The index among the faces that receive, hidden ones included; `None` on the ground.
     pub(in crate::desktop) face: Option<u32>,
-    /// The component's name, or the ground.
+    /// The component's name, or that of the ground.
     pub(in crate::desktop) name: String,
 }
 
@@ -23,7 +23,6 @@ pub(in crate::desktop) struct PickedPoint {
 pub(in crate::desktop) struct Dome {
     /// Its middle, metres.
     pub(in crate::desktop) centre: DVec3,
-    /// How large it is, metres.
     pub(in crate::desktop) radius: f64,
 }
 
@@ -44,7 +43,7 @@ pub(in crate::desktop) fn dome(project: &Project) -> Dome {
     }
 }
 
-/// What lies under a place of the picture.
+/// What is at a position in the picture.
 pub(in crate::desktop) fn under(
     project: &Project,
     view: &View,
@@ -71,7 +70,7 @@ pub(in crate::desktop) fn under(
             let ([right, up, forward], half) = (side.axes(), side.half_size());
             let at = side.target + right * (half.x * (x * 2.0 - 1.0)) + up * (half.y * (1.0 - y * 2.0));
             let dome = dome(project);
-            // before everything
+            // in front of everything
             let away = (dome.centre - at).dot(side.to_viewer) + dome.radius * 4.0;
             (at + side.to_viewer * away, forward)
         }
@@ -96,7 +95,7 @@ pub(in crate::desktop) fn under(
     Some(PickedPoint { point, normal, face: Some(among_receivers(project, face)), name })
 }
 
-/// Which of the faces that receive it is, told which of those that are visible.
+/// Converts the index of a visible face to that among the faces that receive.
 fn among_receivers(project: &Project, face: u32) -> u32 {
     let Project { site, visible, .. } = project;
     let (mut passed, mut hidden) = (0, 0);

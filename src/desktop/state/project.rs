@@ -1,4 +1,4 @@
-//! The open site: as written, as meant, and what else the window needs to know of it.
+//! The open site: as written, as checked, and further data for the window.
 
 use crate::desktop::state::settings::{Hidden, WindowSettings};
 use crate::formats::ModelReader;
@@ -12,34 +12,34 @@ use std::sync::Arc;
 
 /// An open site.
 pub(in crate::desktop) struct Project {
-    /// Where its site file lies; none yet for a bare model.
+    /// The path of its site file; `None` for a bare model.
     pub(in crate::desktop) path: Option<PathBuf>,
-    /// As it is written.
+    /// The request as written.
     pub(in crate::desktop) written: WrittenSite,
-    /// As it is meant.
+    /// The checked site.
     pub(in crate::desktop) site: Arc<Site>,
-    /// What the picture leaves out.
+    /// The components that the picture leaves out.
     pub(in crate::desktop) hidden: Hidden,
-    /// The site as the picture has it: what is hidden is looked through, as what does not receive is everywhere.
+    /// The site in the picture, without hidden components.
     pub(in crate::desktop) visible: Arc<Site>,
-    /// Its models where they stand, whatever is asked of them.
+    /// Its models where they stand, independent of the request.
     pub(in crate::desktop) models: Models,
     /// How its models are read.
     pub(in crate::desktop) reading: ModelReader,
     /// The colour of each component.
     pub(in crate::desktop) colours: Vec<[u8; 3]>,
-    /// What is visible, to be asked what lies under the pointer; and whose faces those are.
+    /// The visible mesh with its ray caster, to find what is under the pointer.
     pub(in crate::desktop) seen: Arc<(Mesh, RayCaster)>,
     /// Of these, what is flush with the ground.
     pub(in crate::desktop) flush: Option<Arc<FlushFaces>>,
-    /// Models that came together with its site file, to be added to it.
+    /// Models that were opened together with its site file, to be added to it.
     pub(in crate::desktop) beside: Vec<PathBuf>,
 }
 
-/// What an open site is made of.
+/// The parts of an open site that can be reused.
 pub(in crate::desktop) struct LoadedSite {
     pub(in crate::desktop) path: Option<PathBuf>,
-    /// None if they are to be read again.
+    /// `None` if they must be read again.
     pub(in crate::desktop) models: Option<Models>,
     pub(in crate::desktop) visible: Arc<Site>,
     pub(in crate::desktop) seen: Arc<(Mesh, RayCaster)>,
@@ -47,7 +47,7 @@ pub(in crate::desktop) struct LoadedSite {
 }
 
 impl Project {
-    /// What of it can be used for the site as it is written now; its models cannot where they are to be read again.
+    /// The parts that can be reused for the changed site; its models cannot be if they must be read again.
     pub(in crate::desktop) fn loaded(&self, reads_models: bool) -> LoadedSite {
         LoadedSite {
             path: self.path.clone(),
@@ -58,7 +58,7 @@ impl Project {
         }
     }
 
-    /// Its models, if they are those of a site as it is written.
+    /// Its models, if they are those of a changed request.
     pub(in crate::desktop) fn models_of(&self, written: &WrittenSite) -> Option<Models> {
         self.models.are_those_of(written).then(|| self.models.clone())
     }
@@ -70,16 +70,16 @@ impl Project {
         files.chain(of_before.unwrap_or_default()).collect()
     }
 
-    /// Which of its files is no more what was read.
+    /// One of its files that has changed since it was read.
     pub(in crate::desktop) fn changed_file(&self) -> Option<&Path> {
         let site_file = self.path.as_deref().filter(|path| self.written.has_changed_at(path));
         self.models.changed_file().or(site_file)
     }
 
-    /// As it is written on the disk now; the settings are those of the window where nobody has changed it there.
+    /// The request as it is on the disk now. If the file is unchanged there, it has the window's settings.
     ///
     /// # Errors
-    /// What is wrong with its file.
+    /// Errors in its file.
     pub(in crate::desktop) fn on_disk(&self, now: &SiteFile) -> Result<WrittenSite, SiteError> {
         let of_window = || WrittenSite { site: now.clone(), ..self.written.clone() };
         let Some(path) = &self.path else { return Ok(of_window()) };
@@ -91,21 +91,21 @@ impl Project {
         Ok(read)
     }
 
-    /// The settings that it comes with.
+    /// The settings that it is opened with.
     pub(in crate::desktop) fn settings(&self, before: &WindowSettings) -> WindowSettings {
         let mut shown = before.shown;
         shown.method = self.site.method;
         WindowSettings { site: self.written.site.clone(), shown, hidden: Arc::clone(&self.hidden), before: None }
     }
 
-    /// What the site is called: its place, otherwise its file.
+    /// The name of the site: its place's, otherwise its file's.
     pub(in crate::desktop) fn name(&self) -> String {
         let named = self.written.site.place.as_ref().and_then(|place: &PlaceTable| place.name.clone());
         named.filter(|name| !name.trim().is_empty()).unwrap_or_else(|| name_of(Path::new(&self.written.file)))
     }
 }
 
-/// What people call a file.
+/// The name of a file in messages.
 pub(in crate::desktop) fn name_of(path: &Path) -> String {
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     let folder = path.parent().and_then(Path::file_name).map(|name| name.to_string_lossy().into_owned());
@@ -115,8 +115,8 @@ pub(in crate::desktop) fn name_of(path: &Path) -> String {
     }
 }
 
-/// What a study must say and somebody left out: the March day of most rules, nine to five. A study of several days may
-/// leave its hours out.
+/// Fills in what a study requires and the file lacks: the March day of most rules, nine to five. A study of several
+/// days may omit its hours.
 pub(in crate::desktop) fn complete(site: &mut SiteFile) {
     let study = &mut site.study;
     study.step.get_or_insert_with(|| "30min".to_owned());

@@ -1,4 +1,4 @@
-//! Unsaved settings, kept beside the window's own data, so that they survive a crash or a kill.
+//! A copy of unsaved settings beside the window's own data, which survives a crash or a kill.
 
 use crate::choice::Method;
 use crate::desktop::state::project::Project;
@@ -9,75 +9,75 @@ use eframe::egui;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// How long nothing changes before it is kept.
+/// How long settings must stay unchanged before they are stored.
 const REST: Duration = Duration::from_secs(2);
-/// How long it may go on changing before it is kept all the same.
+/// How long they may keep changing before they are stored nevertheless.
 const MOST: Duration = Duration::from_secs(10);
 
-/// What a site file would say, and by which technique.
+/// The site file as it would be written, and the technique.
 type State = (SiteFile, Method);
 
-/// What is kept of what is not saved, and what was found of earlier windows.
+/// The stored unsaved settings, and those of earlier windows.
 #[derive(Default)]
 pub(in crate::desktop) struct Recovery {
-    /// Where it is kept; nowhere without one.
+    /// The folder; `None` to store nothing.
     folder: Option<PathBuf>,
     slot: Option<Slot>,
-    /// What the slot has.
+    /// The contents of the slot.
     kept: Option<State>,
-    /// What was seen last that the slot has not, since when there is such, and since when it is this.
+    /// The last seen state that is not stored: since when it differs from the slot, and since when it is unchanged.
     seen: Option<(State, Instant, Instant)>,
-    /// What windows that have ended had not saved.
+    /// The unsaved settings of windows that have ended.
     left: Vec<(Slot, UnsavedSite)>,
-    /// What of it is being opened.
+    /// Those that are being restored.
     restoring: Option<(Slot, SiteFile)>,
-    /// The user knows that nothing can be kept.
+    /// Whether the user was told that settings cannot be stored.
     is_reported: bool,
 }
 
 impl Recovery {
-    /// Keeps in a folder what is not saved, and offers what is there of windows that have ended.
+    /// Uses a folder, and offers the settings there of windows that have ended.
     pub(in crate::desktop) fn begin_in(&mut self, folder: &Path) {
         self.left = left_behind(folder);
         self.folder = Some(folder.to_owned());
     }
 
-    /// Whether something is offered.
+    /// Whether there is an offer.
     pub(in crate::desktop) fn is_offering(&self) -> bool {
         !self.left.is_empty()
     }
 
-    /// What is offered first.
+    /// The first offer.
     pub(in crate::desktop) fn offer(&self) -> Option<&UnsavedSite> {
         self.left.first().map(|(_, unsaved)| unsaved)
     }
 
-    /// Takes what is offered first.
+    /// Takes the first offer.
     pub(in crate::desktop) fn take_offer(&mut self) -> Option<(Slot, UnsavedSite)> {
         (!self.left.is_empty()).then(|| self.left.remove(0))
     }
 
-    /// Offers nothing more until the next start.
+    /// Makes no more offers until the next start.
     pub(in crate::desktop) fn offer_later(&mut self) {
         self.left.clear();
     }
 
-    /// A site is being opened to which this belongs.
+    /// Remembers settings while their site is being opened.
     pub(in crate::desktop) fn restore(&mut self, slot: Slot, site: SiteFile) {
         self.restoring = Some((slot, site));
     }
 
-    /// Takes what belongs to the site that was opened.
+    /// Takes the settings for the site that was opened.
     pub(in crate::desktop) fn take_restored(&mut self) -> Option<(Slot, SiteFile)> {
         self.restoring.take()
     }
 
-    /// Nothing is being opened any more; what was is offered another time.
+    /// Forgets the settings of a site that could not be opened; they will be offered again.
     pub(in crate::desktop) fn let_go(&mut self) {
         self.restoring = None;
     }
 
-    /// A slot that has what is set now stays this window's.
+    /// Continues with a slot that contains the current settings.
     pub(in crate::desktop) fn go_on_with(&mut self, slot: Slot, state: State) {
         if let Some(other) = self.slot.replace(slot) {
             other.empty();
@@ -85,7 +85,7 @@ impl Recovery {
         self.kept = Some(state);
     }
 
-    /// All is saved, or nobody wants what is not: nothing stays.
+    /// Removes the stored settings, as everything is saved or discarded.
     pub(in crate::desktop) fn empty(&mut self) {
         if self.folder.is_none() {
             return;
@@ -96,7 +96,7 @@ impl Recovery {
         }
     }
 
-    /// Keeps what is set for a site, once it rests. Returns, once, why it cannot.
+    /// Stores a site's settings once they stop changing. Returns, once, why that is not possible.
     pub(in crate::desktop) fn keep(
         &mut self,
         project: &Project,
@@ -122,7 +122,7 @@ impl Recovery {
         }
         let mut written = WrittenSite { site: site.clone(), ..project.written.clone() };
         written.site.study.technique = Some(method.word().to_owned());
-        // what cannot be kept now is tried again with the next change
+        // after a failure, the next change is tried again
         self.kept = Some(state);
         let error = self.write(&folder, &UnsavedSite { path: project.path.clone(), written }).err()?;
         (!std::mem::replace(&mut self.is_reported, true)).then_some(error)

@@ -1,4 +1,4 @@
-//! What is saved, and the questions before something would be lost.
+//! What is saved, and the questions before something is lost.
 
 use crate::choice::Method;
 use crate::desktop::state::project::Project;
@@ -6,24 +6,24 @@ use crate::desktop::state::recovery::Recovery;
 use crate::site::file::SiteFile;
 use std::path::PathBuf;
 
-/// What is saved, and what is asked about what is not.
+/// What is saved, and the open questions.
 #[derive(Default)]
 pub(in crate::desktop) struct SaveState {
-    /// What the site file says, and by which technique; none yet for a bare model.
+    /// The saved site file and technique; `None` for a bare model.
     pub(in crate::desktop) saved: Option<(SiteFile, Method)>,
     pub(in crate::desktop) question: Option<SaveQuestion>,
-    /// What goes on once it is saved.
+    /// The action after saving.
     pub(in crate::desktop) then: Option<PendingAction>,
-    /// Ctrl+S, or the window's own way to close: once the fields have what is typed.
+    /// Set by Ctrl+S or by closing the window: saves once fields have taken over the typed text.
     pub(in crate::desktop) saves: bool,
     pub(in crate::desktop) closes: bool,
-    /// Nobody wants what is not saved.
+    /// Whether the unsaved settings were discarded.
     pub(in crate::desktop) is_left: bool,
     pub(in crate::desktop) title: String,
     pub(in crate::desktop) recovery: Recovery,
 }
 
-/// What is asked.
+/// A question about saving.
 pub(in crate::desktop) enum SaveQuestion {
     /// Asks what becomes of unsaved settings.
     Unsaved(PendingAction),
@@ -31,7 +31,7 @@ pub(in crate::desktop) enum SaveQuestion {
     Replaced(PathBuf),
 }
 
-/// What would lose what is not saved.
+/// An action that would lose unsaved settings.
 pub(in crate::desktop) enum PendingAction {
     /// Closes the window.
     Close,
@@ -42,7 +42,7 @@ pub(in crate::desktop) enum PendingAction {
 }
 
 impl SaveState {
-    /// Another window has no title yet.
+    /// Makes the title be set again, for a new window.
     pub(in crate::desktop) fn forget_title(&mut self) {
         self.title.clear();
     }

@@ -1,4 +1,4 @@
-//! What a person sets, as one small value, and its history.
+//! The settings as one small value, and their history.
 
 use crate::choice::Method;
 use crate::export::figure::Diagram;
@@ -7,11 +7,11 @@ use crate::site::file::SiteFile;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// Everything that undo brings back: the site as it is written, how its shadows are shown, what is
-/// hidden, and what it is compared with.
+/// Everything that undo restores: the site file, how its shadows are shown, what is hidden, and what it is compared
+/// with.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::desktop) struct WindowSettings {
-    /// What the site file says.
+    /// The site file.
     pub(in crate::desktop) site: SiteFile,
     /// How its shadows are shown.
     pub(in crate::desktop) shown: ShadowSettings,
@@ -21,29 +21,29 @@ pub(in crate::desktop) struct WindowSettings {
     pub(in crate::desktop) before: Option<Arc<WrittenSite>>,
 }
 
-/// Names of components that the window's picture leaves out, whatever they do.
+/// The names of components that the window's picture leaves out, whatever their roles.
 pub(in crate::desktop) type Hidden = Arc<BTreeSet<String>>;
 
 /// How shadows are shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(in crate::desktop) struct ShadowSettings {
-    /// By which technique they are found.
+    /// The technique.
     pub(in crate::desktop) method: Method,
-    /// Rays go to the whole disc of the sun, where rays are cast.
+    /// Whether rays are cast to the whole disc of the sun, if rays are cast.
     pub(in crate::desktop) disc: bool,
-    /// The shadow volumes over the picture.
+    /// Whether shadow volumes are shown over the picture.
     pub(in crate::desktop) volumes: bool,
-    /// The silhouette over the picture.
+    /// Whether the silhouette is shown over the picture.
     pub(in crate::desktop) silhouette: bool,
-    /// What counting took, instead of sun and shadow.
+    /// The diagram of counting that is shown instead of sun and shadow.
     pub(in crate::desktop) diagram: Option<Diagram>,
-    /// Components in their own colours.
+    /// Whether components have their own colours.
     pub(in crate::desktop) tinted: bool,
-    /// Hours are found on façades, too.
+    /// Whether hours are computed on façades, too.
     pub(in crate::desktop) facades: bool,
 }
 
-/// The settings that were, and those that were undone.
+/// The earlier settings, and those that were undone.
 #[derive(Default)]
 pub(in crate::desktop) struct History {
     past: Vec<WindowSettings>,
@@ -52,7 +52,7 @@ pub(in crate::desktop) struct History {
 }
 
 impl History {
-    /// How many are kept.
+    /// The greatest number of earlier settings.
     const MOST: usize = 200;
 
     /// Starts over with another site.
@@ -60,7 +60,7 @@ impl History {
         *self = History { last: now.clone(), ..History::default() };
     }
 
-    /// Takes note of settings that a person has come to.
+    /// Records settings after a change.
     pub(in crate::desktop) fn note(&mut self, now: &WindowSettings) {
         if *now != self.last {
             self.past.push(std::mem::replace(&mut self.last, now.clone()));
@@ -71,21 +71,21 @@ impl History {
         }
     }
 
-    /// The settings before.
+    /// Returns the settings before.
     pub(in crate::desktop) fn undo(&mut self) -> Option<WindowSettings> {
         let before = self.past.pop()?;
         self.future.push(std::mem::replace(&mut self.last, before.clone()));
         Some(before)
     }
 
-    /// The settings that were undone last.
+    /// Returns the settings that were undone last.
     pub(in crate::desktop) fn redo(&mut self) -> Option<WindowSettings> {
         let after = self.future.pop()?;
         self.past.push(std::mem::replace(&mut self.last, after.clone()));
         Some(after)
     }
 
-    /// Changes the site in all of them.
+    /// Changes the site file in all of them.
     pub(in crate::desktop) fn change_all(&mut self, change: impl Fn(&mut SiteFile)) {
         let all = self.past.iter_mut().chain(&mut self.future).chain([&mut self.last]);
         all.for_each(|settings| change(&mut settings.site));

@@ -1,9 +1,9 @@
-//! What a technique can do of what the window shows.
+//! What a technique supports in the window.
 
 use crate::choice::{Engine, Method, Subject};
 use crate::desktop::state::eye::Stand;
 
-/// Whether a technique draws such a view.
+/// Whether a technique draws the view of a stand.
 pub(in crate::desktop) fn draws(method: Method, stand: Stand) -> bool {
     let subject = match stand {
         Stand::Perspective => Subject::Camera,
@@ -13,7 +13,7 @@ pub(in crate::desktop) fn draws(method: Method, stand: Stand) -> bool {
     method.row().draws(Engine::Auto, subject)
 }
 
-/// Whether rays are cast, so that the sun's disc can be asked for.
+/// Whether rays are cast, so that the sun can be a disc.
 pub(in crate::desktop) fn casts_rays(method: Method, software: bool) -> bool {
     method == Method::RayCast || (method == Method::Auto && software)
 }

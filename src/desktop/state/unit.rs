@@ -1,9 +1,9 @@
-//! The unit in which lengths are shown. Files always have metres.
+//! The unit of displayed lengths. Files always use metres.
 
 /// A unit of length.
 #[derive(Clone, Copy)]
 pub(in crate::desktop) struct Unit {
-    /// How long it is, metres.
+    /// Its length, metres.
     pub(in crate::desktop) metres: f64,
     /// Its short name.
     pub(in crate::desktop) name: &'static str,

@@ -3,20 +3,20 @@
 
 use crate::message::{Field, Words};
 
-/// The words of what is set in the panel: keys are labels.
+/// The words for settings in the panel: keys are labels.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::desktop) struct PanelWords;
 
-/// The same with several models: the panel sets none's north and scale, and keys of models are keys.
+/// The same for several models: the panel has no fields for their north and scale, so these keep their keys.
 #[derive(Clone, Copy, Debug)]
 struct SeveralModelsWords;
 
-/// The words of what is set in the panel of a site with so many models.
+/// The words for the panel of a site with this number of models.
 pub(in crate::desktop) fn of_panel(models: usize) -> &'static dyn Words {
     if models > 1 { &SeveralModelsWords } else { &PanelWords }
 }
 
-/// The words of what files say: keys are keys.
+/// The words for the contents of files: keys stay keys.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::desktop) struct FileWords;
 
@@ -44,7 +44,7 @@ impl Words for PanelWords {
             ("[place]", "longitude", _) => "\"Longitude\"".to_owned(),
             ("[place]", "elevation", _) => "\"Elevation\" under Place".to_owned(),
             ("[[model]]", "north", _) => "\"Model north\" under Place".to_owned(),
-            // the panel does not set them
+            // the panel has no fields for them
             ("[[model]]", "crs" | "position", _) => format!("`{key}` under [[model]] in the site file"),
             ("[[model]]", "scale", None) => "\"scale\" under Place".to_owned(),
             ("[[model]]", "scale", Some(value)) => format!("{value} for \"scale\" under Place"),

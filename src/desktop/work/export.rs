@@ -21,7 +21,7 @@ use eframe::egui;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The eye as a site file says it, to the millimetre; the plan is no camera's picture, and leaves the table as it was.
+/// The eye as a site file's table, to the millimetre. In the plan, the table stays as it was.
 fn camera(eye: &Eye, before: &CameraTable) -> CameraTable {
     let side = match eye.stand {
         Stand::Plan => return before.clone(),
@@ -39,14 +39,14 @@ fn camera(eye: &Eye, before: &CameraTable) -> CameraTable {
     }
 }
 
-/// Names the models of a site file that lay in one folder so that one in another means the same.
+/// Changes relative paths of models in a site file that moves to another folder.
 pub(in crate::desktop) fn move_models(site: &mut SiteFile, from: &Path, to: &Path) {
     for name in site.model.iter_mut().filter_map(|model| model.path.as_mut()) {
         *name = WrittenSite::name_in(to, &from.join(&*name));
     }
 }
 
-/// What a site file at a path is to say, so that it reopens to the same view.
+/// The site file for a path, so that it reopens with the same view.
 pub(in crate::desktop) fn written(project: &Project, settings: &WindowSettings, eye: &Eye, path: &Path) -> WrittenSite {
     let mut site = settings.site.clone();
     site.camera = camera(eye, &site.camera);
@@ -59,14 +59,14 @@ pub(in crate::desktop) fn written(project: &Project, settings: &WindowSettings, 
     WrittenSite { file: path.display().to_string(), folder, site, text: project.written.text.clone() }
 }
 
-/// The site as the eye sees it: the command draws from the saved camera, and so the same drawing.
+/// The site as the eye sees it, through the saved camera, so that the drawing is the command's.
 fn seen_from(project: &Project, settings: &WindowSettings, eye: &Eye) -> WrittenSite {
     let mut written = WrittenSite { site: settings.site.clone(), ..project.written.clone() };
     written.site.camera = camera(eye, &written.site.camera);
     written
 }
 
-/// What is handed in is what is seen: of the models that are open, whatever their files have become.
+/// Checks the exported site with the open models, whatever has become of their files.
 fn site_of(written: &WrittenSite, overrides: &Overrides, models: Option<Models>) -> Result<Site, SiteError> {
     Site::with_models(written, overrides, || {
         models.map_or_else(|| Models::read(written, |path, options| overrides.reading.read(path, options)), Ok)
@@ -96,12 +96,12 @@ pub(in crate::desktop) fn drawing(
     Work::start(context, move |on_event| {
         let is_perspective = eye.stand == Stand::Perspective;
         let method = match shown.method {
-            // volumes and silhouette are the stencil's
+            // only the stencil draws volumes and silhouette
             _ if (shown.volumes || shown.silhouette) && is_perspective => Method::Stencil,
             method if technique::draws(method, eye.stand) => method,
             _ => Method::Auto,
         };
-        // for the region of this instant's shadows
+        // the region of this instant's shadows
         let overrides = Overrides { instant: Some(time), technique: Some(method), reading, ..Overrides::default() };
         let site = site_of(&written, &overrides, models)?;
         let request = InstantRequest {
@@ -138,7 +138,7 @@ pub(in crate::desktop) fn animation(
         let method = if technique::draws(method, eye.stand) { method } else { Method::Auto };
         let overrides = Overrides { technique: Some(method), reading, ..Overrides::default() };
         let site = site_of(&written, &overrides, models)?;
-        // the frames, and then each once more in the GIF
+        // the frames, and each again in the GIF
         let count = site.track.instants.len();
         let event_of = |index: usize| {
             let time = site.track.instants[index % count].time;
@@ -161,7 +161,7 @@ pub(in crate::desktop) fn animation(
     })
 }
 
-/// Shows how far a file is; whether it is given up.
+/// Shows the progress of an export. Returns whether it was cancelled.
 pub(in crate::desktop) fn progress(writing: &Work<PathBuf>, ui: &mut egui::Ui) -> bool {
     ui.horizontal(|ui| {
         let (done, count) = writing.progress();
@@ -177,7 +177,7 @@ pub(in crate::desktop) fn progress(writing: &Work<PathBuf>, ui: &mut egui::Ui) -
     .inner
 }
 
-/// Writes files of what was found into a folder: all of them, or a drawing of its lines.
+/// Writes a result's files to a folder: all of them, or a line drawing.
 pub(in crate::desktop) fn found(
     project: &Project,
     settings: &WindowSettings,

@@ -19,33 +19,33 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, mpsc};
 use std::time::{Duration, Instant};
 
-/// Why there is no project.
+/// Why a site could not be loaded.
 pub(in crate::desktop) enum LoadError {
-    /// The files are a bare model, or several.
+    /// The files are one or more models without a place.
     Bare(Vec<PathBuf>),
     /// A message, as the command would print it.
     Message(String),
 }
 
-/// What is to be loaded.
+/// What to load.
 pub(in crate::desktop) enum LoadRequest {
-    /// What somebody opens: a site, or one or more models.
+    /// Files: a site, or one or more models.
     Files(Vec<PathBuf>),
-    /// A bare model, where it stands.
+    /// Bare models with a place.
     Placed(BareModel),
-    /// The site file of a window that has ended, and what was read of it.
+    /// The site file of a window that has ended, and its contents.
     Left(Option<PathBuf>, Box<WrittenSite>),
-    /// The open site as it is written now, what of it is hidden, and what can be used again.
+    /// The open site with changed settings, its hidden components, and what can be reused.
     Again(Box<WrittenSite>, Hidden, Box<LoadedSite>),
 }
 
-/// Work that goes on beside the window.
+/// A load in progress.
 pub(in crate::desktop) struct LoadJob {
-    /// What is loaded, in a word.
+    /// The name of what is loaded.
     pub(in crate::desktop) name: String,
-    /// Whether the site is opened, and not the open one read again.
+    /// Whether it opens a site; otherwise, the open one is read again.
     pub(in crate::desktop) opens: bool,
-    /// Whether it takes so long that it is shown: all but the open site's settings.
+    /// Whether its progress is shown: always, except for changed settings of the open site.
     pub(in crate::desktop) reads: bool,
     stage: Arc<Mutex<LoadStage>>,
     cancelled: Arc<AtomicBool>,
@@ -53,7 +53,7 @@ pub(in crate::desktop) struct LoadJob {
 }
 
 impl LoadJob {
-    /// Begins.
+    /// Starts loading.
     pub(in crate::desktop) fn start(wanted: LoadRequest, reading: &ModelReader, context: egui::Context) -> LoadJob {
         let path = match &wanted {
             LoadRequest::Files(paths) => paths.first().cloned().unwrap_or_default(),
@@ -69,19 +69,19 @@ impl LoadJob {
         let progress = LoadProgress { stage: shown, reading, cancelled: Arc::clone(&cancelled), context };
         std::thread::spawn(move || {
             let project = project(wanted, &progress);
-            // who gave the loading up listens no more
+            // after a cancellation nobody receives this
             let _ = tell.send(project);
             progress.context.request_repaint();
         });
         LoadJob { name: name_of(&path), opens, reads, stage, cancelled, result }
     }
 
-    /// How far it is, 0 to 1, and what is being done; of what takes long, for how long.
+    /// The progress, 0 to 1, and the current stage; for long stages with the elapsed time.
     pub(in crate::desktop) fn stage(&self) -> (f32, String) {
         self.stage.lock().map(|stage| stage.shown(stage.since.elapsed())).unwrap_or_default()
     }
 
-    /// What came of it, once it is done.
+    /// The result, once it is done.
     pub(in crate::desktop) fn done(&self) -> Option<Result<Project, LoadError>> {
         match self.result.try_recv() {
             Ok(result) => Some(result),
@@ -92,20 +92,20 @@ impl LoadJob {
         }
     }
 
-    /// Gives it up.
+    /// Cancels it.
     pub(in crate::desktop) fn cancel(&self) {
         self.cancelled.store(true, Ordering::Relaxed);
     }
 }
 
-/// What is being done.
+/// The current stage.
 struct LoadStage {
     share: f32,
     what: String,
     since: Instant,
 }
 
-/// What takes no longer does not say how long it takes.
+/// Shorter stages do not show the elapsed time.
 const SOON: Duration = Duration::from_secs(2);
 
 impl LoadStage {
@@ -113,7 +113,7 @@ impl LoadStage {
         LoadStage { share, what, since: Instant::now() }
     }
 
-    /// Readers of others do not say how far they are: that time goes by is all that can be shown.
+    /// Readers of other libraries do not report progress, so only the elapsed time can be shown.
     fn shown(&self, gone: Duration) -> (f32, String) {
         match gone < SOON {
             true => (self.share, self.what.clone()),
@@ -124,7 +124,7 @@ impl LoadStage {
 
 struct LoadProgress {
     stage: Arc<Mutex<LoadStage>>,
-    /// Until it is cancelled.
+    /// With a flag for cancelling.
     reading: ModelReader,
     cancelled: Arc<AtomicBool>,
     context: egui::Context,
@@ -145,7 +145,7 @@ fn project(wanted: LoadRequest, progress: &LoadProgress) -> Result<Project, Load
         LoadRequest::Files(paths) => from_files(paths, &mut beside)?,
         LoadRequest::Placed(bare) => (None, placed(bare)?),
         LoadRequest::Left(path, written) => (path, *written),
-        // a key that is left out of the open site by hand is reported, and not filled in
+        // keys that the user removed from the open site are reported, not filled in
         LoadRequest::Again(written, hidden, before) => {
             return read(before.path.clone(), *written, hidden, Some(&before), progress);
         }
@@ -155,8 +155,8 @@ fn project(wanted: LoadRequest, progress: &LoadProgress) -> Result<Project, Load
     Ok(Project { beside, ..project })
 }
 
-/// What somebody opens as it is written, and where its site file lies; models have none. Models that come with a site file
-/// are not of it yet.
+/// The request for the given files, and the path of its site file, if there is one. Models that are opened with a site
+/// file are returned in `beside`.
 fn from_files(paths: Vec<PathBuf>, beside: &mut Vec<PathBuf>) -> Result<(Option<PathBuf>, WrittenSite), LoadError> {
     let mut paths = paths.into_iter();
     let path = paths.next().unwrap_or_default();
@@ -172,7 +172,7 @@ fn from_files(paths: Vec<PathBuf>, beside: &mut Vec<PathBuf>) -> Result<(Option<
     Ok((Some(path), written))
 }
 
-/// Bare models, where they stand.
+/// The request for bare models with a place.
 fn placed(bare: BareModel) -> Result<WrittenSite, LoadError> {
     let north = bare.north().map_err(|error| failure(&error, &FileWords))?;
     let place = bare.place().map_err(|error| failure(&error, &FileWords))?;
@@ -185,7 +185,7 @@ fn placed(bare: BareModel) -> Result<WrittenSite, LoadError> {
     Ok(written)
 }
 
-/// The site as it is written, with what the window needs of it. What an open site has, and still does, is not made again.
+/// Reads and checks a request, with everything that the window needs. Valid parts of the open site are reused.
 fn read(
     path: Option<PathBuf>,
     mut written: WrittenSite,
@@ -194,7 +194,7 @@ fn read(
     progress: &LoadProgress,
 ) -> Result<Project, LoadError> {
     let at_hand = before.and_then(|before| before.models.as_ref()).filter(|models| models.are_those_of(&written));
-    // what is set in the panel has its labels, and what a file says its keys
+    // settings in the panel are worded as labels, the contents of files as keys
     let words: &dyn Words = if before.is_some() { words::of_panel(written.site.model.len()) } else { &FileWords };
     let mut models = None;
     let site = Site::with_models(&written, &Overrides::default(), || {
@@ -202,7 +202,7 @@ fn read(
         Ok(models.insert(read).clone())
     })
     .map_err(|error| match error {
-        // a model that cannot be read is reported before its place is asked for
+        // an unreadable model is reported before its place is asked for
         SiteError::NoPlaceForModel { .. } => LoadError::Bare(written.model_paths()),
         error => failure(&error, words),
     })?;
@@ -227,13 +227,13 @@ fn read(
     };
     progress.tell(1.0, "Drawing");
     let Some(models) = models else { return Err(LoadError::Message("the models were not read".to_owned())) };
-    // what a file proposes is in the panel, and is saved
+    // a file's proposed place is shown in the panel, and saved
     models.proposed_place().iter().for_each(|place| written.site.place.get_or_insert_default().complete_with(place));
     Ok(Project {
         path,
         written,
         models,
-        // what is read of it later is nobody's to cancel here
+        // later reads must not be cancelled by this flag
         reading: progress.reading.until(&Arc::default()),
         colours: component_colours(&site.mesh, &site.casts),
         seen,

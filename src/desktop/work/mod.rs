@@ -1,4 +1,4 @@
-//! Work in threads beside the window's own.
+//! Work in other threads.
 
 pub(in crate::desktop) mod export;
 pub(in crate::desktop) mod loading;
@@ -14,22 +14,22 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, mpsc};
 
-/// Who works in a folder, for others who want to.
+/// The window's name in the lock of a folder.
 pub(in crate::desktop) const WHO: &str = "the window of gnomon";
 
-/// It can be given up.
+/// Work in progress, which can be cancelled.
 pub(in crate::desktop) struct Work<T> {
     progress: Arc<Mutex<(usize, usize)>>,
-    /// Why it is done again, until that is taken.
+    /// Why the work started over, until that is read.
     note: Arc<Mutex<Option<String>>>,
-    /// All that was noted so far, each note once.
+    /// All notes so far, without repetition.
     notes: Arc<Mutex<Vec<Message>>>,
     cancelled: Arc<AtomicBool>,
     result: mpsc::Receiver<Result<T, String>>,
 }
 
 impl<T: Send + 'static> Work<T> {
-    /// Begins; the work is given what hears its events.
+    /// Starts work, which gets a listener for its events.
     pub(in crate::desktop) fn start(
         context: egui::Context,
         work: impl FnOnce(&mut OnEvent<'_>) -> anyhow::Result<T> + Send + 'static,
@@ -67,29 +67,29 @@ impl<T: Send + 'static> Work<T> {
                 context.request_repaint();
                 if heard.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             });
-            // who gave it up listens no more
+            // after a cancellation nobody receives this
             let _ = tell.send(answer.map_err(|error| fault::line(error.as_ref(), &FileWords)));
             context.request_repaint();
         });
         Work { progress, note, notes, cancelled, result }
     }
 
-    /// How much is done, of how much.
+    /// The finished part of the work, and the whole.
     pub(in crate::desktop) fn progress(&self) -> (usize, usize) {
         self.progress.lock().map(|progress| *progress).unwrap_or_default()
     }
 
-    /// Why it is done again, once where it is.
+    /// Why the work started over; returned once.
     pub(in crate::desktop) fn note(&self) -> Option<String> {
         self.note.lock().ok().and_then(|mut note| note.take())
     }
 
-    /// All that was noted so far.
+    /// All notes so far.
     pub(in crate::desktop) fn notes(&self) -> Vec<Message> {
         self.notes.lock().map(|notes| notes.clone()).unwrap_or_default()
     }
 
-    /// What came of it, once it is done.
+    /// The result, once it is done.
     pub(in crate::desktop) fn done(&self) -> Option<Result<T, String>> {
         match self.result.try_recv() {
             Ok(result) => Some(result),

@@ -1,16 +1,16 @@
-//! The sample sites, and writing them to a folder from which they can be opened.
+//! The sample sites, which are written to a folder and opened from there.
 
 use crate::export::file;
 use std::path::{Path, PathBuf};
 
-/// A sample site: its name, its site file, and the models that this names.
+/// A sample site: its name, its site file, and its models.
 struct SampleSite {
     name: &'static str,
     site: &'static str,
     models: &'static [(&'static str, &'static [u8])],
 }
 
-/// The sample sites: their names, in the menu's order.
+/// The names of the sample sites, in menu order.
 pub(in crate::desktop) const SAMPLES: [&str; 4] = [SITES[0].name, SITES[1].name, SITES[2].name, SITES[3].name];
 
 const SITES: [SampleSite; 4] = [
@@ -40,10 +40,10 @@ const SITES: [SampleSite; 4] = [
     },
 ];
 
-/// Writes a sample where it can be opened, and says where that is.
+/// Writes a sample to its folder, and returns its path.
 ///
 /// # Errors
-/// Where the system's folder for such files cannot be written to, and a name that no sample has.
+/// If the system's folder for such files cannot be written to, or if there is no such sample.
 pub(in crate::desktop) fn sample(name: &str) -> anyhow::Result<PathBuf> {
     let sample = SITES.iter().find(|sample| sample.name == name);
     let sample = sample.ok_or_else(|| anyhow::anyhow!("there is no sample {name}"))?;
@@ -56,12 +56,12 @@ pub(in crate::desktop) fn sample(name: &str) -> anyhow::Result<PathBuf> {
     Ok(path)
 }
 
-/// Where the samples are written out, each time that they are opened.
+/// The folder of the samples, which are written each time they are opened.
 fn samples_folder() -> PathBuf {
     std::env::temp_dir().join(format!("gnomon-{}-samples", env!("CARGO_PKG_VERSION")))
 }
 
-/// Whether a site file is a sample's, and nobody's to keep.
+/// Whether a site file is a sample's, which is not the user's own.
 pub(in crate::desktop) fn is_sample(path: &Path) -> bool {
     path.starts_with(samples_folder())
 }

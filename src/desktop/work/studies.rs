@@ -27,25 +27,25 @@ use eframe::egui;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// What is asked of a study beside its site.
+/// The request of a study besides its site.
 pub(in crate::desktop) struct StudyOrder {
-    /// By which technique.
+    /// The technique.
     pub(in crate::desktop) method: Method,
     /// The number of the answer.
     pub(in crate::desktop) number: u64,
-    /// Where a study is kept that is stopped; nowhere without one.
+    /// The folder for stopped studies; `None` to keep none.
     pub(in crate::desktop) studies: Option<PathBuf>,
-    /// Who is to show what it comes to.
+    /// The context to repaint when there is a result.
     pub(in crate::desktop) context: egui::Context,
 }
 
-/// Adds up the hours of a site's study, which is kept among `studies` where it is stopped.
+/// Computes the hours of a site's study. A stopped study is kept in `studies`.
 pub(in crate::desktop) fn hours(project: &Project, order: StudyOrder) -> Work<StudyResult> {
     let StudyOrder { method, number, studies, context } = order;
     let (site, written) = (Arc::clone(&project.site), project.written.site.clone());
     let mark = project.models.mark();
     Work::start(context, move |on_event| {
-        // they are few where they can be drawn
+        // few enough to keep if their outlines can be drawn
         let bits = Lines::Outlines.check(&site.track).is_ok();
         let request = ProfileRequest { bits, ..ProfileRequest::of(Stopwatch::start()) };
         let hours = find_hours(&Site { method, ..Site::clone(&site) }, &request, shelf(&studies), on_event)?;
@@ -90,7 +90,7 @@ pub(in crate::desktop) fn probe(
     })
 }
 
-/// Finds the hours of sun on the patches of a site.
+/// Computes the hours of sun on the patches of a site.
 pub(in crate::desktop) fn facades(project: &Project, order: StudyOrder) -> Work<StudyResult> {
     let StudyOrder { method, number, studies, context } = order;
     let (site, written) = (Arc::clone(&project.site), project.written.site.clone());
@@ -107,7 +107,7 @@ pub(in crate::desktop) fn facades(project: &Project, order: StudyOrder) -> Work<
     })
 }
 
-/// Finds what changes from `before` to the open site: over the study and on the plan of the latter.
+/// Computes the change from `before` to the open site, with the study and the plan of the latter.
 pub(in crate::desktop) fn change(
     project: &Project,
     before: Arc<WrittenSite>,
@@ -121,7 +121,7 @@ pub(in crate::desktop) fn change(
     let (name, reading) = (project.name(), project.reading.clone());
     Work::start(context, move |on_event| {
         let mut watch = Stopwatch::start();
-        // the picture lies on this ground
+        // the picture has this ground
         after.site.ground.level = Some(site.ground.level);
         let overrides = Overrides { technique: Some(method), ..Overrides::default() };
         let mut first = WrittenSite::clone(&before);
@@ -157,7 +157,7 @@ pub(in crate::desktop) fn change(
     })
 }
 
-/// Two studies tell how far they are as one does.
+/// Shows the progress of two studies as that of one.
 fn compare(
     pair: &Pair,
     before: Option<&Outcome>,
@@ -165,7 +165,7 @@ fn compare(
     on_event: &mut OnEvent<'_>,
 ) -> Result<CompareOutcome, DeliverError> {
     let is_both = before.is_none();
-    // what is done again begins once more, and is the same state
+    // work that starts over is for the same state
     let (mut begun, mut is_again) = (0_usize, false);
     find_comparison(pair, before, shelf, &mut |event| match event {
         Event::Drawn { index, count, time, .. } if is_both => {
@@ -183,7 +183,7 @@ fn compare(
     })
 }
 
-/// Where a study is kept that is stopped.
+/// The folder for stopped studies.
 fn shelf(studies: &Option<PathBuf>) -> Option<Folder<'_>> {
     studies.as_deref().map(|path| Folder { path, who: WHO, inputs: &[] })
 }

@@ -1,9 +1,9 @@
 //! The frame of a patch: the direction of its rows.
 //!
-//! The rows of a patch that is not level are level, so that a wall stands upright in its texture; seen from the side
-//! that is judged, right in the texture is right. Level patches, and those that need less than half the texels that way
-//! (a strut that leans), have their rows along their longest border. Of that border's directions the one nearest to
-//! level rows, or to the east, is taken.
+//! Rows are horizontal, so that a wall is upright in its texture; seen from the judged side, right in the texture is
+//! right. The exceptions are level patches, and patches that need less than half the texels along their longest border
+//! (such as a leaning strut): their rows follow that border. Of its two directions, the one closer to horizontal rows,
+//! or to the east, is used.
 
 use super::gather::FlatPatch;
 use super::patch::LEVEL;
@@ -12,18 +12,18 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
-/// A patch's directions, and the rectangle along them that holds it.
+/// A patch's axes, and its extent along them.
 pub(super) struct PatchFrame {
     pub(super) right: DVec3,
     pub(super) down: DVec3,
-    /// A point in the patch's plane, around the mesh's origin.
+    /// A point in the patch's plane, relative to the mesh's origin.
     anchor: DVec3,
-    /// Metres right and down of the anchor.
+    /// The minimum along right and down, metres from the anchor.
     low: DVec2,
     high: DVec2,
 }
 
-/// More texels than this along a side say that the cell is too small.
+/// More texels than this along a side mean that the cell is too small.
 const MOST_COUNTED: f64 = 1e9;
 
 impl PatchFrame {
@@ -39,14 +39,15 @@ impl PatchFrame {
         PatchFrame { right, down, anchor, low, high }
     }
 
-    /// Columns and rows of so many metres.
+    /// The number of columns and rows of this size in metres.
     pub(super) fn texels(&self, cell: f64) -> [u32; 2] {
-        // a wall of whole cells takes no more for its rounding
+        // a rounding error must not add a column or row to a wall of whole cells
         let count = |length: f64| (length / cell - 1e-4).ceil().clamp(1.0, MOST_COUNTED) as u32;
         [count(self.high.x - self.low.x), count(self.high.y - self.low.y)]
     }
 
-    /// The corner where the first texel begins. What whole texels are longer than the patch stands over on both sides alike.
+    /// The corner where the first texel begins. The excess of whole texels over the patch's extent is equal on both
+    /// sides.
     pub(super) fn corner(&self, cell: f64) -> DVec3 {
         let [width, height] = self.texels(cell).map(|count| f64::from(count) * cell);
         let corner = (self.low + self.high - DVec2::new(width, height)) / 2.0;
@@ -59,7 +60,7 @@ impl PatchFrame {
     }
 }
 
-/// The frames of all patches, for texels of about so many metres.
+/// The frames of all patches, for texels of approximately this size in metres.
 pub(super) fn of_all(mesh: &Mesh, flats: &[FlatPatch], cell: f64) -> Vec<PatchFrame> {
     flats.par_iter().map(|flat| of(mesh, flat, cell)).collect()
 }
@@ -86,7 +87,7 @@ fn of(mesh: &Mesh, flat: &FlatPatch, cell: f64) -> PatchFrame {
     }
 }
 
-/// The longest edge that the patch's faces do not share.
+/// The longest border edge of the patch.
 fn longest_border(mesh: &Mesh, flat: &FlatPatch) -> DVec3 {
     let mut count: FxHashMap<[u32; 2], u32> = FxHashMap::default();
     for &face in &flat.faces {

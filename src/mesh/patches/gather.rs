@@ -1,4 +1,4 @@
-//! Gathers connected faces that lie in one plane.
+//! Gathers connected faces in one plane.
 
 use super::{FLAT_ANGLE_DEG, FLAT_M, seen_side};
 use crate::mesh::planes::{self, area_vector};
@@ -7,18 +7,18 @@ use crate::mesh::{Component, Mesh};
 use glam::DVec4;
 use rayon::prelude::*;
 
-/// A patch before it has texels.
+/// A patch without texels.
 #[derive(Clone, Debug)]
 pub(super) struct FlatPatch {
     pub(super) component: u32,
     pub(super) faces: Vec<u32>,
-    /// Around the mesh's origin, to the side that is judged.
+    /// The plane relative to the mesh's origin, facing the judged side.
     pub(super) plane: DVec4,
     pub(super) two_sided: bool,
     pub(super) area_m2: f64,
 }
 
-/// The patches of all components that receive, in the components' order and the larger ones first.
+/// The patches of all components that receive, in the order of components, the larger ones of each first.
 pub(super) fn gather(mesh: &Mesh, receives: &[bool]) -> Vec<FlatPatch> {
     let edges = planes::sides(mesh);
     let spacing = Spacing::of(mesh);
@@ -32,7 +32,7 @@ pub(super) fn gather(mesh: &Mesh, receives: &[bool]) -> Vec<FlatPatch> {
 }
 
 /// Grows patches from the largest faces of a component. All faces of a patch are compared with its first face's plane,
-/// never against a neighbour's, so that a gentle curve is not flattened step by step.
+/// never with a neighbour's, so that a gentle curve is not flattened step by step.
 fn of_component(
     mesh: &Mesh,
     index: u32,

@@ -1,4 +1,4 @@
-//! Flat patches: the faces of components as receivers, each patch with a raster of texels in its own plane.
+//! Flat patches: components' faces as receivers, each patch with a raster of texels in its own plane.
 //!
 //! A patch is a set of faces of one component that are connected by edges and lie in one plane, within `FLAT_ANGLE_DEG`
 //! and [`FLAT_M`]. So holes stay holes, and every face with an area is in exactly one patch. Curved bodies become many

@@ -1,10 +1,10 @@
-//! Packs the patches into the pages of the atlas: in shelves, the highest first.
+//! Packs the patches into the pages of the atlas, in shelves, the highest first.
 
 use super::frame::PatchFrame;
 use super::{GUTTER, MOST_PAGE, Patches};
 
-/// The cell at which the atlas has no more than `most` texels and every patch fits a page, and the page's side. A patch
-/// has at least one texel, so that there may be more where there are more patches.
+/// The cell size for which the atlas has at most `most` texels and every patch fits in a page, and the side of a page.
+/// Each patch has at least one texel, so with more patches than `most` there are more texels.
 pub(super) fn fitting_cell(frames: &[PatchFrame], asked: f64, most: usize) -> (f64, u32) {
     let mut cell = asked;
     loop {
@@ -17,7 +17,7 @@ pub(super) fn fitting_cell(frames: &[PatchFrame], asked: f64, most: usize) -> (f
         let too_long = f64::from(longest) / f64::from(MOST_PAGE - 2 * GUTTER);
         let over = (total / most as f64).max(too_long * too_long);
         if over <= 1.0 || longest == 1 {
-            // shelves leave some of a page empty
+            // shelves waste some of a page
             let side = ((total * 1.1).sqrt() as u32).max(longest + 2 * GUTTER).next_power_of_two();
             return (cell, side.clamp(64, MOST_PAGE));
         }
@@ -25,7 +25,7 @@ pub(super) fn fitting_cell(frames: &[PatchFrame], asked: f64, most: usize) -> (f
     }
 }
 
-/// Gives every patch its place.
+/// Sets the position of every patch.
 pub(super) fn place(patches: &mut Patches) {
     let side = patches.page_size;
     let mut highest_first: Vec<u32> = (0..patches.list.len() as u32).collect();

@@ -1,52 +1,53 @@
-//! Which side of a face is judged. An architect means the outer one, and windings cannot be trusted to show it.
+//! Finds the side of a face that is judged. An architect means the outer one, and windings cannot be trusted to show
+//! it.
 //!
-//! A *piece* is a set of faces that are connected by edges of two faces. Within it faces are turned one way by their
-//! neighbours, whatever their winding; then the piece as a whole is turned:
+//! A *piece* is a set of faces that are connected by edges with two faces. First, faces within it are turned to match
+//! their neighbours, whatever their winding; then the piece as a whole is turned:
 //!
 //! - A closed piece is judged on its outside, which its signed volume shows: a box turned inside out is still a box.
-//!   The largest piece of a component sets the winding of the component; a piece wound the other way is taken for one
+//!   The largest piece of a component sets the winding of the component, and a piece wound the other way is taken as
 //!   turned inside out. But within the bounding box of a larger piece it may be a cavity of that, or stand in its
 //!   courtyard: nothing shows which.
-//! - An open piece that mostly looks upwards (roofs against soffits, of faces less steep than 60°) is judged on that
-//!   side: terrain, or a sheet of roof with its walls. But where what looks up lies lower than the walls it may be a
+//! - An open piece that mostly faces up (roofs against soffits, of faces less steep than 60°) is judged on that side:
+//!   terrain, or a sheet of roof with its walls. But if the faces that face up are lower than the walls, it may be a
 //!   basin, or a house whose roof is another component: nothing shows which.
 //! - For those pieces, for a closed sheet whose front and back are both in the file, and for any other open piece (a
-//!   fence, walls without a roof, a twisted band), no outer side is known. They are judged on the side that faces the
-//!   sun. Where walls of a single sheet enclose a room, the inner side is as dark as the room; sunlight that falls onto
-//!   it through windows is counted, too.
+//!   fence, walls without a roof, a twisted band), the outer side is unknown. They are judged on the side that faces the
+//!   sun. If walls of a single sheet enclose a room, the inner side is as dark as the room; sunlight that enters through
+//!   windows is counted, too.
 
 use crate::mesh::planes::area_vector;
 use crate::mesh::{Component, Mesh};
 use glam::{DVec3, Vec3};
 
-/// How one face is judged.
+/// The side on which a face is judged.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct SeenSide {
     /// On the back of its winding.
     pub(super) turned: bool,
-    /// On both sides.
+    /// On either side.
     pub(super) both: bool,
 }
 
-/// Cosine of the tilt above which a face tells what is up: 60°.
+/// The cosine of the tilt up to which a face counts as facing up or down: 60°.
 const ROOF: f64 = 0.5;
-/// Part of a piece's area that must be steep for it to have walls.
+/// The least steep share of its area for a piece to have walls.
 const WALLED: f64 = 0.1;
-/// Part of a piece's area that must look up or down for that to tell its side.
+/// The least share of its area that must face up or down to determine a piece's side.
 const ROOFED: f64 = 0.02;
-/// What has no such part of its area times its size as its volume bounds nothing.
+/// A piece with less volume, as a share of its area times its size, encloses nothing.
 const NO_VOLUME: f64 = 1e-9;
-/// By which part of that area more must look one way than the other.
+/// By how much of that area one direction must outweigh the other.
 const CLEARLY: f64 = 0.5;
 
-/// Faces that are connected by edges of two faces.
+/// Faces that are connected by edges with two faces.
 #[derive(Default)]
 struct FacePiece {
     faces: Vec<u32>,
-    /// No two of its neighbours can be turned one way.
+    /// Whether its faces cannot all be turned to match.
     twisted: bool,
     open: bool,
-    /// Signed, as its faces are turned to each other; around its first vertex.
+    /// Signed, with its faces turned to match; relative to its first vertex.
     volume: f64,
     area: f64,
     low: Vec3,
@@ -60,7 +61,7 @@ impl FacePiece {
     }
 }
 
-/// How the faces of a component are judged, in their order; `edges` are the three of each face of the mesh.
+/// The judged sides of a component's faces, in order; `edges` has three edges for each face of the mesh.
 pub(super) fn of_faces(mesh: &Mesh, component: &Component, edges: &[[u32; 3]]) -> Vec<SeenSide> {
     let first = component.faces.start;
     let mut seen = vec![SeenSide::default(); component.faces.len()];
@@ -100,7 +101,7 @@ pub(super) fn of_faces(mesh: &Mesh, component: &Component, edges: &[[u32; 3]]) -
     seen
 }
 
-/// The pieces, and per face which it is in. Turns each face as its piece's first.
+/// The pieces, and the piece of each face. Turns each face to match its piece's first face.
 fn pieces(mesh: &Mesh, component: &Component, edges: &[[u32; 3]], seen: &mut [SeenSide]) -> (Vec<FacePiece>, Vec<u32>) {
     let first = component.faces.start;
     let mut piece_of = vec![u32::MAX; component.faces.len()];
@@ -119,7 +120,7 @@ fn pieces(mesh: &Mesh, component: &Component, edges: &[[u32; 3]], seen: &mut [Se
             for &edge in &edges[face as usize] {
                 let &[one, other] = mesh.faces_at(edge as usize) else { continue };
                 let neighbour = if one.face() == face { other.face() } else { one.face() };
-                // neighbours that run along an edge the same way are wound against each other
+                // neighbours that run along an edge in the same direction have opposite windings
                 let turned = seen[(face - first) as usize].turned ^ (one.direction() == other.direction());
                 let local = (neighbour - first) as usize;
                 if piece_of[local] == u32::MAX {
@@ -136,7 +137,7 @@ fn pieces(mesh: &Mesh, component: &Component, edges: &[[u32; 3]], seen: &mut [Se
     (pieces, piece_of)
 }
 
-/// Marks pieces with an edge along which their faces do not cancel.
+/// Marks pieces with an edge whose faces do not cancel.
 fn find_open(mesh: &Mesh, component: &Component, piece_of: &[u32], seen: &[SeenSide], pieces: &mut [FacePiece]) {
     let first = component.faces.start;
     for edge in component.edges.clone() {
@@ -154,7 +155,7 @@ fn find_open(mesh: &Mesh, component: &Component, piece_of: &[u32], seen: &[SeenS
     }
 }
 
-/// Turns a piece to the side that most of its area has as its winding's, and measures it.
+/// Turns a piece to the side that most of its area has by winding, and measures it.
 fn measure(mesh: &Mesh, piece: &mut FacePiece, first: u32, seen: &mut [SeenSide]) {
     let area = |turned: bool, seen: &[SeenSide]| -> f64 {
         let of = piece.faces.iter().filter(|face| seen[(**face - first) as usize].turned == turned);
@@ -177,11 +178,11 @@ fn measure(mesh: &Mesh, piece: &mut FacePiece, first: u32, seen: &mut [SeenSide]
     piece.volume = piece.faces.iter().map(volume).sum();
 }
 
-/// Whether an open piece looks up as it is turned, or down; nothing where that is not clear, or where walls stand
-/// higher than what looks up.
+/// Whether an open piece, as it is turned, faces up or down; `None` if that is unclear, or if its walls are higher than
+/// the faces that face up.
 fn upwards(mesh: &Mesh, piece: &FacePiece, first: u32, seen: &[SeenSide]) -> Option<bool> {
     let (mut roofs, mut up) = (0.0, 0.0);
-    // area, and area times height, of what is level and of what is steep
+    // area, and area times height, of level and of steep faces
     let (mut level, mut steep) = ([0.0; 2], [0.0; 2]);
     for &face in &piece.faces {
         let vector: DVec3 = area_vector(mesh, face);

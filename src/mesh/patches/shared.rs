@@ -1,12 +1,13 @@
-//! Parts of patches that are not surfaces of their own: those that exist twice, and those between solids that touch.
+//! Finds parts of patches that are not surfaces of their own: those that exist twice, and those between solids that
+//! touch.
 //!
-//! Patches share a place where one lies in the other's plane, within the millimetre at which receivers are judged.
-//! Where two outer sides face each other there, each has a solid behind it, so that no sun reaches them. Everything
-//! else that shares a place is one surface, which counts in the first patch that has it.
+//! Patches share a place if one lies in the other's plane, within the millimetre at which receivers are judged. If two
+//! outer sides face each other there, each has a solid behind it, so no sun reaches them. Everything else that shares a
+//! place is one surface, which counts in the first patch that has it.
 //!
-//! Where two solids of one component share the exact corners of a wall, nothing shows its outer side. Its two sides run
-//! against each other there, like the two sides of a sheet whose back is in the file; but around the wall there are
-//! faces in front of it and behind it everywhere.
+//! If two solids of one component share the exact corners of a wall, nothing shows its outer side. Its two sides run in
+//! opposite directions, like those of a sheet whose back is in the file; but all around the wall there are faces in
+//! front of it and behind it.
 
 use super::texels::place;
 use super::{FLAT_ANGLE_DEG, Patch, Patches, UncountedArea, gather};
@@ -21,20 +22,21 @@ use rayon::prelude::*;
 use rustc_hash::FxHashSet;
 use std::time::Duration;
 
-/// What lies nearer to a plane than this lies in it, metres.
+/// Surfaces closer to a plane than this are in the plane, metres.
 const ONE_PLANE_M: f64 = 0.001;
-/// An outside that lies before a plane may lie as much behind it, for rounding, metres; what lies deeper is the plane's own
-/// back, as that of thin sheet metal.
+/// An outside in front of a plane may be this far behind it by rounding, metres. What is deeper is the plane's own
+/// back, as in thin sheet metal.
 const BEHIND_M: f64 = 0.0001;
-/// So far around its centre a texel's place must be shared, in texels: what meets at an edge alone shares nothing.
+/// A texel's place must be shared this far around its centre, in texels, so that surfaces that only meet at an edge
+/// share nothing.
 const AROUND: f64 = 0.01;
-/// Where is asked how often a patch's own faces cover a texel, from its centre and in texels: on no edge, as a rule.
+/// The offset from a texel's centre, in texels, at which a patch's own faces are counted; chosen to avoid edges.
 const BESIDE: DVec2 = DVec2::new(0.012_345_67, 0.007_891_01);
 
 /// A flat surface with which a patch may share its place.
 struct FlatSurface<'a> {
     component: u32,
-    /// Its outer side is not known, and all around it other faces stand before it and behind it.
+    /// Whether its outer side is unknown, and other faces are in front of it and behind it all around.
     between: bool,
     plane: DVec4,
     two_sided: bool,
@@ -43,14 +45,14 @@ struct FlatSurface<'a> {
     faces: &'a [u32],
 }
 
-/// All of them, and where they lie.
+/// All flat surfaces, in a spatial index.
 struct FlatSurfaces<'a> {
     list: Vec<FlatSurface<'a>>,
     boxes: Vec<Aabb>,
     tree: Bvh2,
 }
 
-/// What of a patch counts.
+/// The part of a patch that counts.
 struct CountedArea {
     area_m2: f64,
     uncounted: Vec<u32>,
@@ -58,7 +60,7 @@ struct CountedArea {
 }
 
 impl Patches {
-    /// Leaves out of all sums what is not a surface of its own.
+    /// Excludes from all sums what is not a surface of its own.
     pub fn leave_out_shared(&mut self, mesh: &Mesh, casts: &[bool], receives: &[bool]) {
         let only_cast: Vec<bool> = casts.iter().zip(receives).map(|(casts, receives)| *casts && !receives).collect();
         let beside = gather::gather(mesh, &only_cast);
@@ -133,7 +135,7 @@ impl Patches {
         CountedArea { area_m2, uncounted, left_out }
     }
 
-    /// Which part of its faces' area a patch has, where they do not lie over each other: 1 as a rule.
+    /// The area of a patch as a share of its faces' area, if those overlap; normally 1.
     fn covered_once(&self, mesh: &Mesh, patch: &Patch) -> f64 {
         let faces = self.faces_of(patch);
         if faces.len() < 2 {
@@ -153,10 +155,10 @@ impl Patches {
         if once < times { once as f64 / times as f64 } else { 1.0 }
     }
 
-    /// Which texels lie wholly in other surfaces, told at four places around their centres: each of these must be covered.
-    /// Of surfaces only what lies no lower than `least` above the patch's plane.
+    /// The texels that lie wholly in other surfaces: these must cover four points around the centre. Only surfaces no
+    /// lower than `least` above the patch's plane count.
     fn covered_by(&self, mesh: &Mesh, patch: &Patch, others: &[&FlatSurface], least: f64) -> Vec<Coverage> {
-        // where a patch is judged if no centre lies in it
+        // the point at which a patch without centres is judged
         let aside = patch.alone.map_or(DVec2::ZERO, |point| {
             let texel = self.texels[patch.texels.start as usize];
             place(patch, point, self.cell) - DVec2::new(texel.column.into(), texel.row.into())
@@ -177,7 +179,7 @@ impl Patches {
 }
 
 impl FlatSurfaces<'_> {
-    /// What may share its place with a patch: what the patch is there again of, and what may touch it.
+    /// The surfaces that may share their place with a patch: those that it may repeat, and those that it may touch.
     fn sharing(&self, patch: &Patch, number: usize) -> (Vec<&FlatSurface<'_>>, Vec<&FlatSurface<'_>>) {
         let least_cosine = FLAT_ANGLE_DEG.to_radians().cos();
         let (mut again, mut touching) = (Vec::new(), Vec::new());
@@ -204,7 +206,7 @@ impl FlatSurfaces<'_> {
     }
 }
 
-/// Whether at every edge around faces in a plane other faces stand before the plane and behind it.
+/// Whether, at every edge around faces in a plane, other faces are in front of the plane and behind it.
 fn is_between(mesh: &Mesh, edges: &[[u32; 3]], faces: &[u32], plane: DVec4) -> bool {
     let own: FxHashSet<u32> = faces.iter().copied().collect();
     let around = faces
@@ -219,7 +221,7 @@ fn is_between(mesh: &Mesh, edges: &[[u32; 3]], faces: &[u32], plane: DVec4) -> b
     around.peek().is_some() && around.all(|edge| stands(edge, 1.0) && stands(edge, -1.0))
 }
 
-/// A box around faces, as wide as planes are apart that are one.
+/// A box around faces, with the tolerance within which two planes are the same.
 fn around(mesh: &Mesh, faces: &[u32]) -> Aabb {
     let corners = || faces.iter().flat_map(|&face| mesh.corners(face as usize)).map(Vec3A::from);
     let low = corners().fold(Vec3A::INFINITY, Vec3A::min);

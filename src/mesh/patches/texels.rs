@@ -1,4 +1,4 @@
-//! Which texels of a patch are judged: those whose centres lie in one of its faces or on its edge.
+//! Finds the judged texels of a patch: those whose centres lie in one of its faces or on an edge.
 
 use super::{Patch, Patches, Texel};
 use crate::mesh::Mesh;
@@ -7,7 +7,7 @@ use crate::mesh::scan::Coverage;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-/// Fills in the texels of all patches.
+/// Sets the texels of all patches.
 pub(super) fn find(mesh: &Mesh, patches: &mut Patches) {
     let (cell, faces) = (patches.cell, &patches.faces);
     let of = |patch: &Patch| {
@@ -28,7 +28,7 @@ pub(super) fn find(mesh: &Mesh, patches: &mut Patches) {
     }
 }
 
-/// Where a point lies, in texels such that centres are whole numbers.
+/// A point in texels, with centres at whole numbers.
 pub(super) fn place(patch: &Patch, point: DVec3, cell: f64) -> DVec2 {
     let from_corner = (point - patch.corner) / cell;
     DVec2::new(from_corner.dot(patch.right), from_corner.dot(patch.down)) - 0.5
@@ -47,7 +47,7 @@ fn covered(mesh: &Mesh, patch: &Patch, faces: &[u32], cell: f64) -> Vec<Texel> {
     texels
 }
 
-/// The middle of the largest face, brought into the patch's plane, and the texel that holds it.
+/// The middle of the largest face, projected to the patch's plane, and the texel that contains it.
 fn alone(mesh: &Mesh, patch: &Patch, faces: &[u32], cell: f64) -> (Texel, DVec3) {
     let size = |face: u32| area_vector(mesh, face).length();
     let largest = faces.iter().copied().max_by(|&one, &other| size(one).total_cmp(&size(other))).unwrap_or(faces[0]);

@@ -1,7 +1,7 @@
-//! What is wrong with a mesh, in numbers, names and places.
+//! Reports what is wrong with a mesh: numbers, names and places.
 //!
-//! None of it stops a study: shadows of defective parts are right, too. But an open solid is often a modelling mistake,
-//! and a part that is missing from the file casts no shadow.
+//! None of it prevents a study: shadows of defective parts are right, too. But an open solid is often a modelling
+//! mistake, and a part that is missing from the file casts no shadow.
 
 mod open;
 mod places;
@@ -21,7 +21,8 @@ pub struct ComponentReport {
     pub name: String,
     /// The number of its triangles, as in the file.
     pub triangles: usize,
-    /// Whether every edge is run along as often as against: the component then bounds a solid and is well wound.
+    /// Whether each edge is used equally in both directions: the component then encloses a solid and is consistently
+    /// wound.
     pub closed: bool,
     /// The number of edges with one face.
     pub open_edges: usize,

@@ -1,4 +1,4 @@
-//! Open edges: what they border, and which vertices lie within them.
+//! Open edges: what they border, and the vertices that lie within them.
 
 use super::places::{OpenKind, OpenPlace, edge, longest, world};
 use crate::mesh::spacing::Spacing;
@@ -10,8 +10,8 @@ use obvhs::cwbvh::builder::build_cwbvh;
 use obvhs::ray::{Ray, RayHit};
 use std::time::Duration;
 
-/// Vertices of open edges that stand within another open edge, as far apart as welding would join; each with the
-/// longest such edge. One of the faces there was split and its neighbour was not.
+/// The vertices of open edges that lie within another open edge, up to the distance that welding would join, each with
+/// the longest such edge. One of the faces there was split and its neighbour was not.
 pub(super) fn junctions(mesh: &Mesh, component: &Component, open: &[u32], spacing: &Spacing) -> Vec<(u32, u32)> {
     let mut ends: Vec<u32> = open.iter().flat_map(|&edge| mesh.edges[edge as usize]).collect();
     ends.sort_unstable();
@@ -28,7 +28,7 @@ pub(super) fn junctions(mesh: &Mesh, component: &Component, open: &[u32], spacin
     let point = |vertex: u32| Vec3A::from(mesh.vertices[vertex as usize]);
     let around = |vertex: u32| {
         let points = [mesh.vertices[vertex as usize]];
-        // what the tree's single precision may be off, several times
+        // several times the error of the tree's single precision
         let padding = Vec3A::splat((tolerance(&points) + 8.0 * spacing.at(&points)) as f32);
         Aabb::new(point(vertex) - padding, point(vertex) + padding)
     };
@@ -48,7 +48,7 @@ pub(super) fn junctions(mesh: &Mesh, component: &Component, open: &[u32], spacin
             let aside = from_a.distance((b - a) / length * along);
             along > tolerance && length - along > tolerance && aside <= tolerance
         };
-        // + 0 makes −0 into 0, of which the tree takes one sign for the direction and the other for its inverse
+        // adding 0 turns −0 into 0: the tree uses the sign of the direction and of its inverse
         let ray = Ray::new(point(from), point(to) - point(from) + Vec3A::ZERO, 0.0, 1.0);
         tree.ray_traverse(ray, &mut RayHit::none(), |_, at| {
             let vertex = ends[tree.primitive_indices[at] as usize];
@@ -63,23 +63,23 @@ pub(super) fn junctions(mesh: &Mesh, component: &Component, open: &[u32], spacin
     found.into_iter().map(|(vertex, edge, _)| (vertex, edge)).collect()
 }
 
-/// Open edges that are connected at vertices.
+/// Open edges that are connected by vertices.
 #[derive(Clone, Debug, Default)]
 struct EdgeGroup {
     edges: Vec<u32>,
     /// Vertices with one open edge.
     ends: Vec<u32>,
-    /// Vertices with more than two.
+    /// Whether a vertex has more than two open edges.
     branches: bool,
-    /// One of its vertices stands within an open edge.
+    /// Whether one of its vertices lies within an open edge.
     has_junction: bool,
-    /// At each vertex one face comes and one goes, so that they run around it one way.
+    /// Whether one face arrives and one leaves at each vertex, so that the ring has a direction.
     is_oriented: bool,
 }
 
-/// What the open edges are the border of, the longest first.
+/// The places of the open edges, the longest first.
 pub(super) fn places(mesh: &Mesh, open: &[u32], junctions: &[(u32, u32)]) -> Vec<OpenPlace> {
-    // each edge at its first vertex and at its last, with whether its face leaves the vertex there
+    // each edge at both of its vertices, and whether its face leaves the vertex there
     let mut ends: Vec<(u32, u32, bool)> = Vec::with_capacity(open.len() * 2);
     for (at, &edge) in open.iter().enumerate() {
         let [first, last] = mesh.edges[edge as usize];
@@ -135,15 +135,15 @@ fn place(mesh: &Mesh, group: &EdgeGroup) -> OpenPlace {
     OpenPlace { kind, edges: group.edges.len(), length_m, from, to, near }
 }
 
-/// Below this part of its squared length the area of a ring is none.
+/// A ring with a smaller area, as a share of its squared length, encloses nothing.
 const NO_AREA: f64 = 1e-5;
 
-/// A sheet is this flat at its rim: the cosine of the angle to its border's plane, about 25°. The flared foot of a
-/// statue is no sheet.
+/// The greatest angle of a sheet to its border's plane at its rim, about 25°, as a cosine. The flared foot of a statue
+/// is not a sheet.
 const SHEET: f64 = 0.9;
 
-/// Hole, rim or seam. The area within a ring, run around as its faces do, looks to the side of their front where they
-/// lie inside the ring, and away from it where they lie around it.
+/// Whether a ring is a hole, a rim or a seam. The area of the ring, run around as its faces do, faces their front side
+/// if they are inside the ring, and their back if they are around it.
 fn ring(mesh: &Mesh, group: &EdgeGroup, middle: DVec3, length_m: f64) -> OpenKind {
     if !group.is_oriented {
         return OpenKind::Hole;

@@ -1,12 +1,12 @@
-//! The places where a mesh is not clean: points and edges in metres of the world frame, the longest first.
+//! The places of a mesh's defects: points and edges in metres of the world frame, the longest first.
 
 use crate::mesh::Mesh;
 use glam::DVec3;
 
-/// More places of one kind than these, the longest, are not kept.
+/// The greatest number of places of a kind; the longest are kept.
 const MOST_PLACES: usize = 100;
 
-/// Where a component is not clean: at most 100 places of each kind, the longest first.
+/// The places of a component's defects: at most 100 of each kind, the longest first.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Places {
     /// Open edges; connected ones are one place.
@@ -19,7 +19,7 @@ pub struct Places {
     pub flipped: Vec<EdgePlace>,
     /// Triangles without area.
     pub degenerate: Vec<FacePlace>,
-    /// Triangles that lie on another one.
+    /// Triangles that duplicate another one.
     pub duplicate: Vec<FacePlace>,
 }
 
@@ -49,11 +49,11 @@ pub struct OpenPlace {
     pub edges: usize,
     /// The length of all of them, metres.
     pub length_m: f64,
-    /// One end of an edge or a run; otherwise of the longest edge.
+    /// One end of an edge or a run; otherwise, of the longest edge.
     pub from: DVec3,
     /// The other end.
     pub to: DVec3,
-    /// The middle of a ring; otherwise of the longest edge.
+    /// The middle of a ring; otherwise, of the longest edge.
     pub near: DVec3,
 }
 
@@ -79,7 +79,7 @@ pub struct FacePlace {
     pub length_m: f64,
 }
 
-/// A vertex that stands within an open edge.
+/// A vertex that lies within an open edge.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Junction {
     /// The vertex.
@@ -88,7 +88,6 @@ pub struct Junction {
     pub edge: EdgePlace,
 }
 
-/// A vertex in the world frame.
 pub(super) fn world(mesh: &Mesh, vertex: u32) -> DVec3 {
     mesh.origin + mesh.vertices[vertex as usize].as_dvec3()
 }
@@ -102,7 +101,7 @@ pub(super) fn edges(mesh: &Mesh, edges: &[u32]) -> Vec<EdgePlace> {
     longest(edges.iter().map(|&at| edge(mesh, at)), |place| place.length_m)
 }
 
-/// Triangles of the mesh, and those that collapsed to a line between two vertices.
+/// Places of triangles of the mesh, and of those that collapsed to a line between two vertices.
 pub(super) fn faces(mesh: &Mesh, faces: &[u32], collapsed: &[[u32; 2]]) -> Vec<FacePlace> {
     let whole = faces.iter().map(|&face| {
         let [a, b, c] = mesh.faces[face as usize].map(|vertex| world(mesh, vertex));
@@ -115,13 +114,13 @@ pub(super) fn faces(mesh: &Mesh, faces: &[u32], collapsed: &[[u32; 2]]) -> Vec<F
     longest(whole.chain(collapsed), |place| place.length_m)
 }
 
-/// Vertices, and the edges in which they stand.
+/// Places of vertices, with the edges that they lie in.
 pub(super) fn junctions(mesh: &Mesh, found: &[(u32, u32)]) -> Vec<Junction> {
     let places = found.iter().map(|&(vertex, within)| Junction { at: world(mesh, vertex), edge: edge(mesh, within) });
     longest(places, |place| place.edge.length_m)
 }
 
-/// The longest of them; of equals the first.
+/// The longest ones; of equals the first.
 pub(super) fn longest<T>(places: impl Iterator<Item = T>, length_m: impl Fn(&T) -> f64) -> Vec<T> {
     let mut places: Vec<T> = places.collect();
     places.sort_by(|one, other| length_m(other).total_cmp(&length_m(one)));

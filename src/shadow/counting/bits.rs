@@ -1,8 +1,8 @@
-//! Which bits of the stencil count.
+//! The bits of the stencil that count.
 
 use wgpu::{CompareFunction, StencilFaceState, StencilOperation};
 
-/// What of the stencil counts.
+/// The part of the stencil that counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::shadow) enum StencilBits {
     /// All bits, in every cell.
@@ -15,7 +15,7 @@ impl StencilBits {
     /// The top bit.
     pub(in crate::shadow) const MASK: u32 = 0x80;
 
-    /// The bits that count, and so the most that is counted without passing through 0.
+    /// The mask of the bits that count, which is also the largest count without overflow to 0.
     pub(super) fn most(self) -> u32 {
         match self {
             StencilBits::All => 0xff,
@@ -23,7 +23,7 @@ impl StencilBits {
         }
     }
 
-    /// What the stencil is compared with, by the bits that are compared.
+    /// The stencil reference, for the bits that are compared.
     pub(super) fn reference(self) -> u32 {
         match self {
             StencilBits::All => 0,
@@ -31,7 +31,7 @@ impl StencilBits {
         }
     }
 
-    /// Which cells count.
+    /// The stencil test and operations for the cells that count.
     pub(super) fn face(self, pass_op: StencilOperation, depth_fail_op: StencilOperation) -> StencilFaceState {
         let compare = match self {
             StencilBits::All => CompareFunction::Always,

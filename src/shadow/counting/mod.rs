@@ -1,8 +1,8 @@
 //! The count of shadow volumes in the stencil, for [`super::stencil`] and, behind a mask, for [`super::hybrid`].
 //!
 //! The method is F. Crow's, 1977, with Heidmann's z-pass and Carmack's z-fail, after *Geometry of Real Time Shadows*,
-//! sections 3 to 6. Walls hang from the silhouette and are extruded in the vertex shader; two-sided stencil with wrap
-//! counts them; a cell is in shadow where the count is not 0.
+//! sections 3 to 6. Walls are extruded from the silhouette in the vertex shader; two-sided stencil operations with
+//! wrap-around count them; a cell is in shadow if its count is not 0.
 //!
 //! - **z-pass** counts the walls in front of the visible point, so it needs no dark cap and no walls below the lowest
 //!   receiver. It is right where the near plane cuts nothing of a volume: always in the plan, whose near plane lies
@@ -31,29 +31,29 @@ use std::sync::Arc;
 use ways::{CountPipelines, CountWays, covered};
 use wgpu::*;
 
-/// What counts one scene's volumes in one view.
+/// Counts one scene's volumes in one view.
 pub(super) struct VolumeCounter {
     pub(super) scene: Scene,
     pub(super) view: View,
     pub(super) surface: GpuSurface,
-    /// The depth at which cells are judged, and the stencil.
+    /// The depth at which cells are judged, with the stencil.
     pub(super) judged: Texture,
     judging: RenderPipeline,
     bits: StencilBits,
     casters: Vec<Batch>,
-    /// Every caster is among what is seen, so that z-pass needs no light cap.
+    /// Whether every caster is also visible geometry, so that z-pass needs no light cap.
     casters_are_seen: bool,
-    /// Each vertex twice: where it is, and where its wall ends.
+    /// Each vertex twice: at its place, and at the end of its wall.
     vertices: Buffer,
     maker: WallMaker,
     ways: CountWays,
-    /// The same, adding up fragments instead; made when first sought.
+    /// The same with fragments added up; made when first needed.
     adding: Option<CountWays>,
     covered: RenderPipeline,
     forced_z_fail: Option<bool>,
 }
 
-/// The volumes of one sun, ready to be drawn.
+/// The volumes for one sun, ready to be drawn.
 pub(super) struct VolumeCount<'a> {
     bits: StencilBits,
     found: Vec<CountedWalls<'a>>,
@@ -67,7 +67,7 @@ pub(super) struct VolumeCount<'a> {
 }
 
 impl VolumeCounter {
-    /// Draws what is seen, uploads the casters, builds the pipelines.
+    /// Draws what is seen, uploads the casters, and builds the pipelines.
     pub(super) fn new(
         gpu: Arc<Gpu>,
         scene: Scene,
@@ -109,7 +109,7 @@ impl VolumeCounter {
         })
     }
 
-    /// Turns to another view; the casters and their walls stay.
+    /// Turns to another view, and keeps the casters and their walls.
     pub(super) fn turn_to(&mut self, view: View) -> Result<(), ShadowError> {
         self.surface.look_at(&self.scene, view)?;
         self.judged = self.surface.judged(&self.judging);
@@ -117,26 +117,26 @@ impl VolumeCounter {
         Ok(())
     }
 
-    /// Counts camera views by z-fail (`true`) or z-pass (`false`), right or wrong: z-fail always is right, and z-pass must be
-    /// seen to fail where it is not chosen.
+    /// Counts camera views by z-fail (`true`) or z-pass (`false`), right or wrong. z-fail always is right, and a test
+    /// shows z-pass failing where it is not chosen.
     #[cfg(feature = "test-hooks")]
     pub(super) fn force_z_fail(&mut self, z_fail: bool) {
         self.forced_z_fail = Some(z_fail);
     }
 
-    /// Also makes what adds up fragments, for [`VolumeCount::fragments`].
+    /// Prepares [`VolumeCount::fragments`], which adds up fragments.
     ///
     /// # Errors
-    /// Where the adapter cannot blend what is added up.
+    /// If the adapter cannot blend the sums.
     pub(super) fn prepare_adding(&mut self) -> Result<(), ShadowError> {
         if self.adding.is_none() {
-            self.surface.gpu.blends_float32("overdraw is added up")?;
+            self.surface.gpu.blends_float32("overdraw is summed")?;
             self.adding = Some(CountWays::adding(&self.surface, &self.maker, self.bits));
         }
         Ok(())
     }
 
-    /// Sets the sun, and finds its volumes; what the adapter has to do for that goes into `encoder`.
+    /// Sets the sun and finds its volumes; the adapter's commands for that go into `encoder`.
     pub(super) fn find(&mut self, to_sun: DVec3, encoder: &mut CommandEncoder) -> Result<VolumeCount<'_>, ShadowError> {
         let z_fail = match &self.view {
             View::Plan(_) | View::Elevation(_) => false,
@@ -179,8 +179,8 @@ fn holds_all(scene: &Scene) -> bool {
 }
 
 impl VolumeCount<'_> {
-    /// A pass over the view's cells that starts with `first` in the target, and `stencil` in the stencil where it is not
-    /// kept from an earlier pass.
+    /// A pass over the view's cells that clears the target to `first`, and the stencil as `stencil` says; without it
+    /// the stencil of an earlier pass is kept.
     pub(super) fn pass<'e>(
         &self,
         encoder: &'e mut CommandEncoder,
@@ -210,7 +210,7 @@ impl VolumeCount<'_> {
         pass
     }
 
-    /// Counts, and leaves the trace of the count in the target: 0 wherever it is not 0.
+    /// Counts, and writes 0 into the target wherever the count is not 0.
     pub(super) fn draw(&self, pass: &mut RenderPass<'_>) {
         pass.set_vertex_buffer(0, self.vertices.slice(..));
         pass.set_stencil_reference(self.bits.reference());
@@ -235,18 +235,18 @@ impl VolumeCount<'_> {
         cover(pass);
     }
 
-    /// Per cell how many fragments of walls and caps reach the count, before any depth is compared; in the cells that
-    /// `stencil` selects, or an earlier pass of the encoder has. To be told, not to be drawn: it is read back.
+    /// Counts for each cell the fragments of walls and caps that reach the count, before any depth test, in the cells
+    /// that `stencil` or an earlier pass of the encoder selects. For statistics: the result is read back.
     ///
     /// # Errors
-    /// Where the adapter fails, or cannot add up.
+    /// If the adapter fails, or cannot blend the sums.
     pub(super) fn fragments(
         &self,
         mut encoder: CommandEncoder,
         stencil: Option<Operations<u32>>,
     ) -> Result<Vec<u32>, ShadowError> {
         let gpu = &self.surface.gpu;
-        let Some(way) = self.adding else { return Err(gpu.failed("nothing adds up overdraw").into()) };
+        let Some(way) = self.adding else { return Err(gpu.failed("overdraw was not prepared").into()) };
         let size = (self.judged.width(), self.judged.height());
         let sum = gpu.texture("adding.sum", size, SUMMED, TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC);
         let mut pass = self.pass(&mut encoder, "adding", &whole(&sum), Color::BLACK, stencil);

@@ -1,4 +1,4 @@
-//! The pipelines that count, and those that show what would be counted.
+//! The pipelines that count, and those that measure counting.
 
 use super::StencilBits;
 use crate::gpu::shaders;
@@ -8,7 +8,7 @@ use crate::shadow::walls::WallMaker;
 use crate::view::View;
 use wgpu::*;
 
-/// The pipelines of the three ways to count.
+/// The pipelines of the three ways of counting.
 pub(super) struct CountWays {
     plan: CountPipelines,
     z_pass: CountPipelines,
@@ -20,12 +20,12 @@ pub(super) struct CountPipelines {
     pub(super) cap: RenderPipeline,
 }
 
-/// What walls and caps leave behind in a cell.
+/// What walls and caps write in a cell.
 struct Trace<'a> {
     label: &'a str,
     target: (TextureFormat, ColorWrites),
     blend: Option<BlendState>,
-    /// Vertex and fragment stages: walls', caps', in the plan and elsewhere.
+    /// The entry points for walls and caps, in the plan and elsewhere.
     plan: [&'a str; 3],
     camera: [&'a str; 3],
 }
@@ -51,7 +51,7 @@ impl CountWays {
         let state = |front, back| DepthStencilState {
             format: COUNTED,
             depth_write_enabled: Some(false),
-            // strictly nearer than what is judged
+            // strictly nearer than the judged point
             depth_compare: Some(CompareFunction::Greater),
             stencil: StencilState { front, back, read_mask: bits.reference(), write_mask: bits.most() },
             bias: DepthBiasState::default(),
@@ -138,7 +138,7 @@ impl CountWays {
     }
 }
 
-/// Draws 0 where the count is not 0, and sets it to 0.
+/// Draws 0 where the count is not 0, and resets it to 0.
 pub(super) fn covered(surface: &GpuSurface, bits: StencilBits) -> RenderPipeline {
     let gpu = &surface.gpu;
     let face = StencilFaceState {
@@ -150,7 +150,7 @@ pub(super) fn covered(surface: &GpuSurface, bits: StencilBits) -> RenderPipeline
         format: COUNTED,
         depth_write_enabled: Some(false),
         depth_compare: Some(CompareFunction::Always),
-        // the mask's bit is not among those that are compared
+        // the mask's bit is not compared
         stencil: StencilState { front: face, back: face, read_mask: bits.most(), write_mask: bits.most() },
         bias: DepthBiasState::default(),
     };

@@ -1,4 +1,4 @@
-//! What stands above a plane: points and edges, and for every sun the facing of the faces.
+//! What stands above a plane: points and edges, and for every sun the directions of the faces.
 
 use super::clumps::{Clumps, Judged, RasterBounds};
 use crate::mesh::{Incidence, Mesh, lowest};
@@ -7,40 +7,41 @@ use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::atomic::{AtomicI8, Ordering};
 
-/// Two faces lie in one plane where the sine of the angle between them is at most this. A sun that sees one of them from
-/// the other side than its neighbour sees it from its edge: it covers nothing that could be told from its edge.
+/// The greatest sine of the angle between two faces in one plane. If a sun sees the front of one and the back of the
+/// other, it sees both edge-on, and the area that they cover is negligible.
 const SAME_PLANE: f64 = 1e-9;
 
-/// The edges of a mesh above a plane, and where its faces go through the plane.
+/// The edges of a mesh above a plane, and the sections where its faces cross the plane.
 pub(super) struct Casters {
     /// Column, row, height.
     points: Vec<DVec3>,
-    /// Per group of faces that lie in one plane its normal, around the mesh's origin.
+    /// The normal of each group of coplanar faces, relative to the mesh's origin.
     normals: Vec<DVec3>,
     clumps: Clumps,
-    /// Clump after clump, and last those between two.
+    /// By clump; last those between two clumps.
     edges: Vec<Edge>,
-    /// Where the edges of each clump begin, and those between two; one longer.
+    /// The first edge of each clump, and of those between two; one entry more.
     edge_first: Vec<u32>,
-    /// Where faces go through the plane, from where they go down to where they go up, and which clump they are in.
+    /// The sections where faces cross the plane, from where they go down to where they go up, with their clump.
     sections: Vec<Section>,
-    /// Clumps that can reach what is drawn under the last sun.
+    /// The clumps that can reach the drawn cells under the current sun.
     reaching: Vec<u32>,
-    /// Those that can as well, but stand far from it; they are looked at where the others leave any light.
+    /// Those of them that are far away. They are used only if the others leave any light.
     far: Vec<u32>,
-    /// Per group and direction (`FaceSide`) what a face turned to the sun adds; nothing where its clump does not reach.
+    /// For each group and direction (`FaceSide`), the change at an edge of a face turned to the sun; 0 if its clump
+    /// does not reach.
     signs: Vec<AtomicI8>,
     throw: DVec2,
 }
 
-/// An edge with two of its faces; one with more stands as often as is needed.
+/// An edge with two of its faces. An edge with more faces is repeated as often as needed.
 #[derive(Clone, Copy)]
 struct Edge {
     ends: [u32; 2],
     sides: [FaceSide; 2],
 }
 
-/// The group of a face, and which way the face runs along the edge: in the lowest bit, 1 against it.
+/// The group of a face, and its direction along the edge in the lowest bit: 1 against it.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) struct FaceSide(u32);
 
@@ -58,15 +59,15 @@ impl FaceSide {
     }
 }
 
-/// An edge of the silhouette as it falls: from where to where, and what the sum changes by where it is crossed, if it is
-/// run from lower rows to higher ones.
+/// A projected silhouette edge: its ends, and the change of the sum where it is crossed, if it runs from lower rows to
+/// higher ones.
 pub(super) struct FallingEdge {
     pub(super) from: DVec2,
     pub(super) to: DVec2,
     pub(super) change: i32,
 }
 
-/// Where a face goes through the plane.
+/// A section where a face crosses the plane.
 pub(super) struct Section {
     ends: [u32; 2],
     pub(super) side: FaceSide,
@@ -102,7 +103,7 @@ impl Casters {
             meets.extend(run.meets.iter().map(|&(face, up, cut)| (face, up, of_all(cut))));
             points.extend(run.cuts);
         }
-        // a face goes down through the plane once and up once; between the two it runs in the plane
+        // a face goes down through the plane once and up once; the section runs between the two
         meets.par_sort_unstable();
         let sections = meets.chunks_exact(2).map(|meet| {
             let [(face, _, down), (_, _, up)] = [meet[0], meet[1]];
@@ -110,14 +111,14 @@ impl Casters {
             Section { ends: [down, up], side: FaceSide::new(group, false), clump: clump_of[group as usize] }
         });
         let sections = sections.collect();
-        // nothing is added on a side without a face
+        // a side without a face adds nothing
         let signs = (0..2 * (normals.len() + 1)).map(|_| AtomicI8::new(0)).collect();
         let (reaching, far, throw) = (Vec::new(), Vec::new(), DVec2::ZERO);
         Casters { points, normals, clumps, edges, edge_first, sections, reaching, far, signs, throw }
     }
 
-    /// Lets fall along a sun what reaches some of the raster; `throw` is how many columns and rows the sun moves away in a
-    /// metre of height. What stands far away falls later, where it is asked for.
+    /// Projects along a sun what reaches some of the raster; `throw` is the shadow's columns and rows per metre of
+    /// height. What is far away is projected later, on request.
     pub(super) fn project(&mut self, to_sun: DVec3, throw: DVec2, judged: RasterBounds) {
         self.turn(&self.reaching, None);
         self.throw = throw;
@@ -136,19 +137,19 @@ impl Casters {
         self.turn(&self.reaching, Some(to_sun));
     }
 
-    /// Whether anything that stands far away has not fallen yet.
+    /// Whether anything far away is not projected yet.
     pub(super) fn has_far(&self) -> bool {
         !self.far.is_empty()
     }
 
-    /// Lets that fall, too.
+    /// Projects what is far away.
     pub(super) fn project_far(&mut self, to_sun: DVec3) {
         self.turn(&self.far, Some(to_sun));
         self.reaching.append(&mut self.far);
         self.reaching.sort_unstable();
     }
 
-    /// Sets what the faces of some clumps add under a sun, or that they add nothing.
+    /// Sets the changes at the edges of some clumps' faces for a sun, or to 0.
     fn turn(&self, clumps: &[u32], to_sun: Option<DVec3>) {
         clumps.par_iter().with_min_len(AT_ONCE).for_each(|&clump| {
             for group in self.clumps.list()[clump as usize].groups.clone() {
@@ -160,28 +161,28 @@ impl Casters {
         });
     }
 
-    /// The points, columns, rows and heights, the mesh's vertices first; and the faces in clumps.
+    /// The points (column, row, height), the mesh's vertices first, and the faces in clumps.
     pub(super) fn standing(&self) -> (&[DVec3], &Clumps) {
         (&self.points, &self.clumps)
     }
 
-    /// Lets everything fall at every instant.
+    /// Projects everything at every instant.
     #[cfg(feature = "test-hooks")]
     pub(super) fn stop_culling(&mut self) {
         self.clumps.culling = false;
     }
 
-    /// How many clumps there are, whether they reach or not.
+    /// The number of clumps, whether they reach or not.
     pub(super) fn clumps(&self) -> usize {
         self.clumps.list().len()
     }
 
-    /// The clumps that reach under the sun of the last projection.
+    /// The clumps that reach under the current sun.
     pub(super) fn reaching(&self) -> &[u32] {
         &self.reaching
     }
 
-    /// The edges of what reaches, silhouette or not, in runs of about equal length; for each run some of the edges.
+    /// The edges of what reaches, silhouette or not, in tasks of about equal length; each is a list of ranges.
     pub(super) fn runs(&self, runs: usize) -> Vec<Vec<Range<usize>>> {
         let between = self.clumps() as u32;
         let of_clump = |clump: u32| [clump, clump + 1].map(|at| self.edge_first[at as usize] as usize);
@@ -209,8 +210,8 @@ impl Casters {
         split
     }
 
-    /// Where faces go through the plane, whatever the sun: each as an edge whose change is to be multiplied by its side's
-    /// sign.
+    /// The sections with the plane, for any sun: each as an edge whose change must be multiplied by the sign of its
+    /// side.
     pub(super) fn sections(&self) -> impl Iterator<Item = (FallingEdge, &Section)> {
         self.sections.iter().map(|section| {
             let [from, to] = section.ends.map(|end| self.points[end as usize].xy());
@@ -218,17 +219,17 @@ impl Casters {
         })
     }
 
-    /// What a face on a side adds under the sun of the last projection.
+    /// The change that a face on a side makes under the current sun.
     pub(super) fn sign(&self, side: FaceSide) -> i32 {
         i32::from(self.signs[side.0 as usize].load(Ordering::Relaxed))
     }
 
-    /// Tells the silhouette in some of the edges.
+    /// Calls `tell` with the silhouette edges among some edges.
     pub(super) fn silhouette(&self, run: Range<usize>, mut tell: impl FnMut(FallingEdge)) {
         const AT_ONCE: usize = 128;
         let change = |edge: &Edge| -> i32 { edge.sides.map(|side| self.sign(side)).iter().sum() };
         for edges in self.edges[run].chunks(AT_ONCE) {
-            // found first and told then: no processor foresees which edge is one
+            // collects first, then calls: whether an edge is silhouette is unpredictable for the processor
             let (mut found, mut count) = ([0_u8; AT_ONCE], 0);
             for (at, edge) in edges.iter().enumerate() {
                 found[count] = at as u8;
@@ -246,14 +247,14 @@ impl Casters {
     }
 }
 
-/// What is near of what reaches a raster: a part of the way to the farthest. Under a low sun in a city it leaves no light,
-/// and there may be ten times as much beyond it.
+/// Clumps within this share of the greatest distance are near. Under a low sun in a city they leave no light, and there
+/// may be ten times as many beyond them.
 const NEAR: f64 = 1.0 / 8.0;
 
-/// Clumps that one task turns to the sun, at the least.
+/// The least number of clumps for one task.
 const AT_ONCE: usize = 1 << 8;
 
-/// Which clump each group is in; what is no group is in the one after the last.
+/// The clump of each group. What belongs to no group gets the index after the last.
 fn clumps_of_groups(clumps: &Clumps, groups: usize) -> Vec<u32> {
     let mut clump_of = vec![clumps.list().len() as u32; groups + 1];
     for (number, clump) in (0..).zip(clumps.list()) {
@@ -262,7 +263,7 @@ fn clumps_of_groups(clumps: &Clumps, groups: usize) -> Vec<u32> {
     clump_of
 }
 
-/// Where the edges of each clump begin, and those between two, in the order of clumps; one longer.
+/// The first edge of each clump, and of those between two, in the order of clumps; one entry more.
 fn first_of_clumps(runs: &[EdgesAbove], clumps: usize) -> Vec<u32> {
     let mut first = vec![0; clumps + 2];
     for (_, clump) in runs.iter().flat_map(|run| &run.edges) {
@@ -274,17 +275,17 @@ fn first_of_clumps(runs: &[EdgesAbove], clumps: usize) -> Vec<u32> {
     first
 }
 
-/// Edges of the mesh that one task cuts.
+/// The number of the mesh's edges for one task.
 const RUN: usize = 1 << 13;
 
-/// What of a run of edges is above the plane.
+/// The part of some edges that is above the plane.
 #[derive(Default)]
 struct EdgesAbove {
-    /// With the clump of each; those between two have the number after the last.
+    /// With the clump of each; those between two have the index after the last.
     edges: Vec<(Edge, u32)>,
-    /// Where they meet the plane; these follow the mesh's vertices.
+    /// Where they cross the plane; these points follow the mesh's vertices.
     cuts: Vec<DVec3>,
-    /// Faces that go through the plane, whether up there, and at which point.
+    /// Faces that cross the plane, whether upwards, and at which point.
     meets: Vec<(u32, bool, u32)>,
 }
 
@@ -300,7 +301,7 @@ impl EdgesAbove {
         let mut above = EdgesAbove { edges: Vec::with_capacity(run.len()), ..EdgesAbove::default() };
         let clump = |sides: [FaceSide; 2]| {
             let [one, other] = sides.map(|side| clump_of[side.group()]);
-            // a side without a face is in no clump of its own
+            // a side without a face is in no clump
             if one == other || sides[1] == no_side { one } else { clump_of[no_side.group()] }
         };
         for at in run {
@@ -312,11 +313,11 @@ impl EdgesAbove {
             let faces = mesh.faces_at(at);
             let side = |face: Incidence| FaceSide::new(group_of(face.face()), face.direction() < 0);
             if first != last {
-                // in the plane every sun's shadow of it is itself
+                // a point in the plane is its own shadow
                 let cut = (points.len() + above.cuts.len()) as u32;
                 above.cuts.push(where_cut(ends.map(|end| points[end as usize])));
                 ends[usize::from(first)] = cut;
-                // a face that runs along the edge goes up where the last end is above
+                // a face that runs along the edge goes up if the edge's second end is above
                 above.meets.extend(faces.iter().map(|face| (face.face(), (face.direction() > 0) == last, cut)));
             }
             if let [one, other] = faces
@@ -333,16 +334,16 @@ impl EdgesAbove {
     }
 }
 
-/// Where an edge between a point above the plane and one that is not meets it. The same whichever is named first.
+/// Where an edge from above the plane to below crosses it. The result does not depend on the order of the ends.
 pub(in crate::shadow) fn where_cut([one, other]: [DVec3; 2]) -> DVec3 {
     let (low, high) = if one.z < other.z { (one, other) } else { (other, one) };
     low.lerp(high, -low.z / (high.z - low.z)).xy().extend(0.0)
 }
 
-/// The group of every face and the normal of every group: faces that meet at an edge and lie in one plane, whole walls
-/// and not their triangles.
+/// The group of every face, and the normal of every group. A group is faces that meet at edges and are coplanar, such
+/// as a whole wall.
 fn groups(mesh: &Mesh) -> (Vec<u32>, Vec<DVec3>) {
-    // corners are f32, so that this is all but exact
+    // corners are f32, so this is nearly exact
     let normal = |face: &[u32; 3]| {
         let [a, b, c] = face.map(|vertex| mesh.vertices[vertex as usize].as_dvec3());
         (b - a).cross(c - a)
@@ -363,7 +364,7 @@ fn groups(mesh: &Mesh) -> (Vec<u32>, Vec<DVec3>) {
         let [one, other] = [0, 1].map(|at| lowest(&mut above, mesh.faces_at(edge)[at].face()));
         above[one.max(other) as usize] = one.min(other);
     }
-    // the largest face's normal stands for all
+    // the largest face's normal represents the group
     let mut group_of = vec![0; mesh.faces.len()];
     let mut normals: Vec<DVec3> = Vec::new();
     for face in 0..mesh.faces.len() {

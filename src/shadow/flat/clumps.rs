@@ -1,19 +1,20 @@
-//! What can reach a raster under a sun: the casters' faces in clumps with a box around each, and the clumps in blocks.
+//! Culls what cannot reach a raster under a sun: the casters' faces are in clumps with a box each, and the clumps in
+//! blocks.
 //!
-//! A clump whose box falls beside what is judged is left out before anything of it is projected. That changes no bit:
-//! beside its own shadow a face adds to the sum what it takes away again.
+//! A clump whose box is projected outside of the judged cells is skipped before anything of it is projected. That
+//! changes no bit: outside of its own shadow a face adds to the sum what it subtracts again.
 
 use crate::mesh::Mesh;
 use glam::{DVec2, DVec3, Vec3Swizzles};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Faces of a clump at the most.
+/// The most faces of a clump.
 const FACES: usize = 256;
-/// Clumps of a block.
+/// The number of clumps in a block.
 const CLUMPS: usize = 64;
 
-/// Some faces of one component that follow each other, and the groups that begin in them.
+/// Consecutive faces of one component, and the groups that begin in them.
 pub(in crate::shadow) struct Clump {
     pub(in crate::shadow) faces: Range<u32>,
     pub(super) groups: Range<u32>,
@@ -43,17 +44,17 @@ impl RasterBounds {
     }
 }
 
-/// All clumps, neighbours beside each other.
+/// All clumps, in spatial order.
 pub(in crate::shadow) struct Clumps {
     list: Vec<Clump>,
-    /// Around each run of [`CLUMPS`].
+    /// A box around each block of [`CLUMPS`].
     blocks: Vec<RasterBounds>,
-    /// Without it all clumps count as reaching what is judged.
+    /// Whether to cull; otherwise, all clumps count as reaching.
     pub(super) culling: bool,
 }
 
 impl Clumps {
-    /// For a mesh whose vertices are at `points`; groups are numbered in the order of their first faces.
+    /// The clumps of a mesh whose vertices are at `points`. Groups are numbered in the order of their first faces.
     pub(super) fn of(mesh: &Mesh, points: &[DVec3], group_of: &[u32]) -> Clumps {
         let runs = mesh.components.iter().flat_map(|component| {
             let Range { start, end } = component.faces;
@@ -82,7 +83,7 @@ impl Clumps {
         &self.list
     }
 
-    /// The clumps that may reach what is judged, in order.
+    /// Adds the clumps that may reach the judged cells, in order.
     pub(in crate::shadow) fn reach(&self, judged: &Judged, found: &mut Vec<u32>) {
         found.clear();
         if !self.culling {
@@ -99,7 +100,7 @@ impl Clumps {
     }
 }
 
-/// Puts boxes around clumps: around their own faces, and around those of their groups that lie in later clumps.
+/// Sets the boxes of clumps, around their own faces and those of their groups in later clumps.
 fn bound(list: &mut [Clump], mesh: &Mesh, points: &[DVec3], group_of: &[u32]) {
     let of_clump = |clump: &Clump| {
         let (mut own, mut others) = (RasterBounds::NONE, Vec::new());
@@ -125,7 +126,7 @@ fn bound(list: &mut [Clump], mesh: &Mesh, points: &[DVec3], group_of: &[u32]) {
     }
 }
 
-/// A number that is near for near places: the bits of column and row by turns (G. Morton, 1966).
+/// The Morton code of a place (G. Morton, 1966): near places have near codes.
 fn place_code(place: DVec2, all: &RasterBounds) -> u32 {
     let spread = |at: f64| {
         let bits = (at * 65535.0) as u32;
@@ -135,35 +136,35 @@ fn place_code(place: DVec2, all: &RasterBounds) -> u32 {
     spread(along.x) | spread(along.y) << 1
 }
 
-/// What is judged, and how shadows fall on it.
+/// The judged cells, and the direction in which shadows fall on them.
 pub(in crate::shadow) struct Judged {
     at: RasterBounds,
     throw: DVec2,
-    /// A unit vector across the shadows, and from where to where what is judged reaches along it.
+    /// A unit vector perpendicular to the shadows, and the extent of the judged cells along it.
     across: DVec2,
     reach: [f64; 2],
 }
 
 impl Judged {
-    /// What is judged within a box, on which shadows fall so many columns and rows a metre of height.
+    /// The judged cells within a box. `throw` is the shadow's columns and rows per metre of height.
     pub(in crate::shadow) fn new(at: RasterBounds, throw: DVec2) -> Judged {
-        // rounding is far below a cell
+        // a margin far above rounding
         let at = RasterBounds { low: at.low - DVec3::new(1.0, 1.0, 0.0), high: at.high + DVec3::new(1.0, 1.0, 0.0) };
         let across = throw.perp().try_normalize().unwrap_or(DVec2::X);
         Judged { at, throw, across, reach: along(across, &at) }
     }
 
-    /// How far before what is judged the middle of a box stands, towards the sun; not above 0 beside it.
+    /// The distance of a box's middle from the judged cells towards the sun; at most 0 beside them.
     pub(super) fn distance(&self, bounds: &RasterBounds) -> f64 {
         let to_sun = self.throw.normalize_or_zero();
         let [_, nearest] = along(to_sun, &self.at);
         to_sun.dot(bounds.middle()) - nearest
     }
 
-    /// False where nothing in a box can shade what is judged.
+    /// Whether anything in a box could shade the judged cells.
     fn is_reached_by(&self, bounds: &RasterBounds) -> bool {
         let Judged { at, throw, across, reach } = self;
-        // so much higher it stands than what it shades
+        // the range of heights above what it shades
         let (least, most) = ((bounds.low.z - at.high.z).max(0.0), bounds.high.z - at.low.z);
         if most <= 0.0 {
             return false;
@@ -171,7 +172,7 @@ impl Judged {
         let falls = [*throw * least, *throw * most];
         let low = bounds.low.xy() - falls[0].max(falls[1]);
         let high = bounds.high.xy() - falls[0].min(falls[1]);
-        // far away places are coarser
+        // far away the rounding is coarser
         let slack = 1e-9 * low.abs().max(high.abs()).max_element();
         let [first, last] = along(*across, bounds);
         let is_beside = (high + slack).cmplt(at.low.xy()).any() || (low - slack).cmpgt(at.high.xy()).any();
@@ -179,7 +180,7 @@ impl Judged {
     }
 }
 
-/// From where to where a box reaches along a vector.
+/// The extent of a box along a vector.
 fn along(vector: DVec2, bounds: &RasterBounds) -> [f64; 2] {
     let middle = vector.dot(bounds.middle());
     let half = vector.abs().dot(bounds.high.xy() - bounds.low.xy()) / 2.0;

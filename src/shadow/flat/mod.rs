@@ -1,14 +1,15 @@
-//! Hard shadows on a plane, exactly and by edges alone. The casters are cut at the plane once; for every sun their
+//! Hard shadows on a plane, exact, from edges alone. The casters are cut at the plane once; for every sun, their
 //! silhouette is projected onto it and summed along the rows of a raster.
 //!
-//! Each face is turned to the sun, so that it adds one to the cells that it covers; the sum is how many faces cover a
-//! cell, and not 0 is shadow. A face's ones begin and end at its edges, and where faces meet that begin and end the same
-//! ones nothing changes: only silhouette edges do, as often as their multiplicity says. It is the rule of shadow volumes
-//! ([`crate::volume`]) in the plane, so casters need not be clean. The idea of running sums between edges is as old as
-//! scan conversion (W. Jack Bouknight, *A procedure for generation of three-dimensional half-toned computer graphics
-//! presentations*, 1970); nothing here is rounded but where a point falls, in double precision, and where an edge crosses
-//! a row, to steps of 2⁻³⁰ columns ([`scan`]). What cannot reach the raster under a sun is left out ([`clumps`]), so that
-//! an instant costs what stands before the sun there, and not what else there is.
+//! Each face is turned to the sun, so that it adds one to the cells that it covers. The sum is the number of faces that
+//! cover a cell; if it is not 0, the cell is in shadow. Along a row, a face's contribution begins and ends at its
+//! edges, and cancels at edges between faces where one ends as the other begins. Only silhouette edges change the sum,
+//! by their multiplicity. This is the rule of shadow volumes ([`crate::volume`]) in the plane, so casters need not be
+//! clean. Running sums between edges are as old as scan conversion (W. Jack Bouknight, *A procedure for generation of
+//! three-dimensional half-toned computer graphics presentations*, 1970). The only rounding is in projected points, in
+//! double precision, and in the positions where edges cross rows, to steps of 2⁻³⁰ columns ([`scan`]). What cannot
+//! reach the raster under a sun is skipped ([`clumps`]), so the cost of an instant depends only on what is between the
+//! sun and the raster.
 
 mod casters;
 mod clumps;
@@ -31,9 +32,9 @@ pub(super) struct FlatShadow {
 }
 
 impl FlatShadow {
-    /// `raster_from_local` takes metres around the mesh's origin to columns, rows and the height above the plane.
-    /// Centres of cells are whole numbers; what is not above the plane casts nothing on it. So many columns and rows
-    /// are drawn, from the first ones on.
+    /// `raster_from_local` transforms metres around the mesh's origin to columns, rows and height above the plane.
+    /// Centres of cells are whole numbers; nothing below the plane casts on it. Draws `size` columns and rows from
+    /// `first` on.
     pub(super) fn new(mesh: &Mesh, raster_from_local: DAffine3, first: [u32; 2], size: [u32; 2]) -> FlatShadow {
         let casters = Casters::cut(mesh, &raster_from_local);
         let scan = Scan::new(&casters, first, size);
@@ -45,10 +46,9 @@ impl FlatShadow {
         self.scan = Scan::new(&self.casters, first, size);
     }
 
-    /// Which cells are in shadow under a sun in front of the plane; the vector may have any length.
+    /// Returns the cells in shadow under a sun in front of the plane; the vector may have any length.
     ///
-    /// A cell whose centre an edge meets takes what lies beyond the edge, in the direction of growing columns, then of
-    /// growing rows.
+    /// A cell whose centre is on an edge belongs to the side of growing columns, then of growing rows.
     pub(super) fn draw(&mut self, to_sun: DVec3) -> &mut Bits {
         self.casters.project(to_sun, self.throw(to_sun), self.scan.bounds());
         self.scan.draw(&self.casters);
@@ -59,33 +59,33 @@ impl FlatShadow {
         self.scan.bits()
     }
 
-    /// As it was drawn last; and where the mesh's vertices stand, column, row and height, and its faces in clumps.
+    /// The last result; the mesh's vertices as column, row and height; and its faces in clumps.
     pub(super) fn drawn(&mut self) -> (&mut Bits, &[DVec3], &Clumps) {
         let (points, clumps) = self.casters.standing();
         (self.scan.bits(), points, clumps)
     }
 
-    /// Lets everything fall at every instant.
+    /// Projects everything at every instant.
     #[cfg(feature = "test-hooks")]
     pub(super) fn stop_culling(&mut self) {
         self.casters.stop_culling();
     }
 
-    /// Under the last sun: how many clumps reached, of how many, and how many rows their silhouette crossed.
+    /// For the last sun: the clumps that reached, all clumps, and the rows that the silhouette crossed.
     #[cfg(feature = "test-hooks")]
     pub(super) fn work(&self) -> [u64; 3] {
         [self.casters.reaching().len() as u64, self.casters.clumps() as u64, self.scan.rows_crossed()]
     }
 
-    /// How many columns and rows away from the sun a shadow falls, a metre of height.
+    /// The columns and rows that a shadow falls away from the sun, per metre of height.
     pub(super) fn throw(&self, to_sun: DVec3) -> DVec2 {
         throw(&self.raster_from_local, to_sun)
     }
 }
 
-/// How many columns and rows away from the sun a shadow falls, a metre of height.
+/// The columns and rows that a shadow falls away from the sun, per metre of height.
 pub(super) fn throw(raster_from_local: &DAffine3, to_sun: DVec3) -> DVec2 {
-    // the sun may be in the plane except for rounding
+    // the sun may be below the plane by rounding
     let along = raster_from_local.transform_vector3(to_sun);
     along.truncate() / along.z.max(1e-9 * along.length())
 }

@@ -1,4 +1,4 @@
-//! Silhouettes → rows of bits: each edge marks where it crosses the rows, and sums run along the rows.
+//! Fills rows of bits from a silhouette: edges mark where they cross rows, and sums run along the rows.
 
 use super::casters::{Casters, FaceSide, FallingEdge};
 use super::clumps::RasterBounds;
@@ -8,29 +8,29 @@ use rayon::prelude::*;
 use std::cell::RefCell;
 use std::ops::Range;
 
-/// A raster that is drawn band by band, so that what is summed stays in the processor's cache.
+/// A raster that is drawn in bands, so that sums stay in the processor's cache.
 ///
-/// Where an edge crosses a row depends on the edge and the row alone, so that a part of a raster is drawn as the whole
-/// is.
+/// The position where an edge crosses a row depends on the edge and the row alone, so a part of a raster is drawn
+/// exactly as the whole is.
 pub(super) struct Scan {
     bits: Bits,
     part: RasterPart,
-    /// Per band where faces end in the plane: the same under every sun, except for whether it sees them.
+    /// For each band, the sections with the plane. They are the same for every sun, except for their sign.
     sections: Vec<Vec<(EdgeCrossing, FaceSide)>>,
-    /// Per clump of the casters the rows, counted from the first, in which faces end before the first column.
+    /// For each clump of the casters, the rows (from the first) with a section before the first column.
     before: Vec<Vec<(Range<u32>, i32, FaceSide)>>,
-    /// Per task which edges of the silhouette cross. Kept, so that no sun allocates anything.
+    /// For each task, the crossings of the silhouette. Kept, so that no allocation is needed per sun.
     crossings: Vec<Crossings>,
-    /// Per band whether all of it is in shadow. More casters change nothing there: a face never takes away from the sum.
+    /// For each band, whether all of it is in shadow. More casters change nothing there, as faces only add to the sum.
     dark: Vec<bool>,
 }
 
-/// Where edges cross.
+/// The crossings of edges.
 #[derive(Default)]
 struct Crossings {
-    /// Per band.
+    /// By band.
     bands: Vec<Vec<EdgeCrossing>>,
-    /// Per row by how much the change before the first column differs from that of the row above.
+    /// For each row, the difference between its change before the first column and that of the row above.
     before: Vec<i32>,
 }
 
@@ -49,53 +49,53 @@ impl Crossings {
     }
 }
 
-/// Where an edge crosses some rows of a band.
+/// The crossings of an edge with consecutive rows of a band.
 struct EdgeCrossing {
-    /// In the first of them, counted from the bits' first column.
+    /// The position in the first row, from the bits' first column.
     at: Fixed,
-    /// Columns a row.
+    /// Columns per row.
     slope: Fixed,
-    /// The first of them, counted in the band.
+    /// The first row, within the band.
     first: u16,
     count: u16,
-    /// What the sum changes by.
+    /// The change of the sum.
     change: i32,
 }
 
-/// Columns in steps of 2⁻³⁰: whole steps from row to row lead to the same place wherever they begin. After a million
-/// rows that is off by less than half a thousandth of a column.
+/// A column in steps of 2⁻³⁰: integer steps from row to row give the same position wherever they begin. After a million
+/// rows the error is below half a thousandth of a column.
 #[derive(Clone, Copy)]
 struct Fixed(i64);
 
 impl Fixed {
     const ONE_LOG: u32 = 30;
-    /// Columns that are farther away need not be told apart: no plan has so many.
+    /// Columns beyond this need not be distinguished: no plan has that many.
     const FARTHEST: f64 = (1_u64 << 32) as f64;
 
     fn new(columns: f64) -> Fixed {
         let steps = columns * (1_u64 << Self::ONE_LOG) as f64;
-        // to the nearest one, without the library call that rounding is on some processors
+        // rounds to nearest without the library call that some processors need
         Fixed((steps + 0.5_f64.copysign(steps)) as i64)
     }
 
-    /// Counted from another column.
+    /// The same relative to another column.
     fn from(self, column: u32) -> Fixed {
         Fixed(self.0 - (i64::from(column) << Self::ONE_LOG))
     }
 
-    /// So many rows further.
+    /// The position some rows later.
     fn after(self, rows: u32, slope: Fixed) -> Fixed {
-        // beyond an edge's end it may be anywhere
+        // beyond an edge's end the value is unused
         Fixed(self.0.wrapping_add(slope.0.wrapping_mul(i64::from(rows))))
     }
 
-    /// The first whole column that is not before it; it is not before the first.
+    /// The first whole column at or after it, at least 0.
     fn column(self) -> usize {
         ((self.0 + (1 << Self::ONE_LOG) - 1) >> Self::ONE_LOG) as usize
     }
 }
 
-/// What a band's sums may take, bytes.
+/// The memory for a band's sums, bytes.
 const BAND_BYTES: usize = 1 << 18;
 /// The most rows of a band; they are counted in 16 bits.
 const MOST_ROWS: usize = 1 << 10;
@@ -120,18 +120,18 @@ impl Scan {
         Scan { bits: Bits::new(width, height), part, sections, before, crossings: Vec::new(), dark }
     }
 
-    /// Finds which cells the silhouette's faces cover.
+    /// Draws the cells that the faces of the silhouette cover.
     pub(super) fn draw(&mut self, casters: &Casters) {
         self.dark.fill(false);
         self.draw_further(casters);
     }
 
-    /// Whether anything is not in shadow.
+    /// Whether any cell is not in shadow.
     pub(super) fn is_lit(&self) -> bool {
         self.dark.contains(&false)
     }
 
-    /// The same, of more casters under the same sun.
+    /// Adds more casters under the same sun.
     pub(super) fn draw_further(&mut self, casters: &Casters) {
         self.cross(casters);
         let before = self.before(casters);
@@ -154,19 +154,19 @@ impl Scan {
         });
     }
 
-    /// As they were drawn last.
+    /// The last result.
     pub(super) fn bits(&mut self) -> &mut Bits {
         &mut self.bits
     }
 
-    /// How many rows the edges of the last silhouette crossed within the raster.
+    /// The number of rows that the edges of the last silhouette crossed within the raster.
     #[cfg(feature = "test-hooks")]
     pub(super) fn rows_crossed(&self) -> u64 {
         let crossings = self.crossings.iter().flat_map(|crossings| crossings.bands.iter().flatten());
         crossings.map(|crossing| u64::from(crossing.count)).sum()
     }
 
-    /// A box around the centres that are drawn.
+    /// A box around the centres of the drawn cells.
     pub(super) fn bounds(&self) -> RasterBounds {
         let RasterPart { first: [left, top], width, end, .. } = self.part;
         let last = [f64::from(left) + f64::from(width) - 1.0, f64::from(end) - 1.0];
@@ -174,7 +174,7 @@ impl Scan {
         RasterBounds { low, high }
     }
 
-    /// Sorts the silhouette by bands.
+    /// Sorts the silhouette into bands.
     fn cross(&mut self, casters: &Casters) {
         let Scan { part, sections, crossings, bits, dark, .. } = self;
         let (bands, rows) = (sections.len(), bits.height as usize);
@@ -194,10 +194,10 @@ impl Scan {
         });
     }
 
-    /// Per row the sum before the first column.
+    /// For each row, the sum before the first column.
     fn before(&mut self, casters: &Casters) -> Vec<i32> {
         let Scan { before, crossings, .. } = self;
-        // the first run's takes all
+        // sums all tasks into the first
         let Some((all, others)) = crossings.split_first_mut() else { return Vec::new() };
         for &clump in casters.reaching() {
             for (rows, change, side) in &before[clump as usize] {
@@ -216,33 +216,33 @@ impl Scan {
     }
 }
 
-/// What of a raster is drawn.
+/// The drawn part of a raster.
 struct RasterPart {
     first: [u32; 2],
     width: u32,
-    /// The row beyond the last.
+    /// The end of the rows.
     end: u32,
-    /// A band has so many rows, as a power of two.
+    /// The rows of a band, as a power of two.
     rows_log: u32,
 }
 
 /// Rows that an edge crosses.
 enum CrossedRows {
-    /// Before the first column or in it, counted from the first row, and what the sum changes by.
+    /// At or before the first column: the rows (from the first), and the change of the sum.
     Before(Range<u32>, i32),
-    /// Within the raster, and in which band.
+    /// Within the raster: the band, and the crossing.
     Within(usize, EdgeCrossing),
 }
 
 impl FallingEdge {
-    /// Tells where the edge crosses the raster's rows, but for what lies beyond the last column.
+    /// Calls `tell` with the edge's crossings of the raster's rows, except beyond the last column.
     fn cross(&self, part: &RasterPart, mut tell: impl FnMut(CrossedRows)) {
         let RasterPart { first: [left, top], width, end, .. } = *part;
         let is_up = self.from.y > self.to.y;
         let ends = [self.from, self.to];
         let [upper, lower] = [ends[usize::from(is_up)], ends[usize::from(!is_up)]];
         let change = if is_up { -self.change } else { self.change };
-        // an edge has the row of its upper end and not that of its lower end, so that edges that meet share none
+        // an edge has its upper end's row but not its lower end's, so edges that meet share no row
         let begin = ceil(upper.y);
         let (start, end) = (begin.max(top), ceil(lower.y).min(end));
         if start >= end || upper.x.min(lower.x) > f64::from(left) + f64::from(width) - 1.0 {
@@ -264,7 +264,8 @@ impl FallingEdge {
 }
 
 impl RasterPart {
-    /// Tells of rows, counted from the first: `at` is where the first of them is crossed, `slope` how far the next one is.
+    /// Calls `tell` for some rows, from the first: `at` is the crossing of the first of them, `slope` the step to the
+    /// next.
     fn tell_rows(
         &self,
         (rows, mut at, slope): (Range<u32>, Fixed, Fixed),
@@ -275,7 +276,7 @@ impl RasterPart {
         let mut within = rows.clone();
         let ends = [at, at.after(rows.len() as u32 - 1, slope)].map(|Fixed(at)| at);
         if ends.iter().any(|&at| at <= 0 || at > last_column) {
-            // rows go from one side to the other; the first ones that are not beyond a border
+            // the crossings move from one side to the other; the first rows that are not beyond a border
             let until = |border: i64| {
                 let [to_go, step] = if slope.0 >= 0 {
                     [border.saturating_sub(at.0), slope.0]
@@ -308,9 +309,9 @@ impl RasterPart {
     }
 }
 
-/// The first whole number that is not below a number, from 0 to the largest one.
+/// The first whole number at or above a number, limited to 32 bits.
 fn ceil(number: f64) -> u32 {
-    // a library call on processors without an instruction for it
+    // `ceil` is a library call on some processors
     let number = number.min(f64::from(u32::MAX));
     let whole = number as u32;
     whole + u32::from(f64::from(whole) < number)
@@ -320,14 +321,14 @@ thread_local! {
     static SUMS: RefCell<BandSums> = const { RefCell::new(BandSums { width: 0, in_row: 0, changes: Vec::new(), marked: Vec::new() }) };
 }
 
-/// What changes in the cells of a band. All is 0 between bands.
+/// The changes in the cells of a band. All are 0 between bands.
 struct BandSums {
     width: usize,
-    /// Words of a row.
+    /// The words in a row.
     in_row: usize,
-    /// Per cell by how much the sum changes there.
+    /// For each cell, the change of the sum there.
     changes: Vec<i32>,
-    /// Per cell whether it does, one bit each.
+    /// For each cell, whether there is a change, one bit each.
     marked: Vec<u64>,
 }
 
@@ -339,7 +340,7 @@ impl BandSums {
         self.marked.resize(rows * self.in_row, 0);
     }
 
-    /// Changes sums where an edge crosses the rows, so many times as much as it says.
+    /// Adds an edge's change, times a factor, at its crossings.
     fn mark(&mut self, crossing: &EdgeCrossing, times: i32) {
         let first = usize::from(crossing.first);
         let mut place = crossing.at;
@@ -352,7 +353,7 @@ impl BandSums {
         }
     }
 
-    /// Sums along the rows, which begin with what is before them, clears what was marked, and tells whether all is covered.
+    /// Sums along the rows, from the sums before them, and clears the marks. Returns whether all cells are covered.
     fn run(&mut self, words: &mut [u64], before: &[i32]) -> bool {
         let mut is_dark = true;
         let rows = words.chunks_exact_mut(self.in_row).zip(self.marked.chunks_exact_mut(self.in_row));

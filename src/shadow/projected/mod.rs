@@ -1,11 +1,11 @@
-//! Projected shadows: exact hard shadows on a plan, by far the fastest on the processor; those on the ground can also
-//! be drawn by the graphics adapter.
+//! Projected shadows: exact hard shadows on a plane, by far the fastest on the processor. On the ground the graphics
+//! adapter can draw them, too.
 //!
 //! J. Blinn, *Me and My (Fake) Shadow*, 1988; M. Herf's *Efficient Generation of Soft Shadow Textures*, 1997, adds up
-//! such shadows. The shadow on a flat receiver is the union of the casters' faces, cut at the height that is judged and
-//! projected along the sun. `flat` finds it on the ground from the silhouette alone: no rays, no volumes, no tree, and
-//! nothing that a raster rounds. What stands above the ground is not one flat receiver; its cells are judged one by one
-//! on the same raster, by `raised`.
+//! such shadows. The shadow on a flat receiver is the union of the casters' faces, cut at the judged height and
+//! projected along the sun. `flat` finds it on the ground from the silhouette alone: without rays, volumes or trees,
+//! and without raster rounding. What stands above the ground is not one flat receiver; `raised` judges its cells one by
+//! one on the same raster.
 
 mod on_gpu;
 
@@ -24,12 +24,12 @@ use std::sync::Arc;
 pub struct Projected {
     shadow: FlatShadow,
     raised: RaisedCells,
-    /// The cells above the ground, where there are any.
+    /// The cells above the ground, if there are any.
     above: Option<Arc<Bits>>,
     scene: Scene,
     raster_from_local: DAffine3,
     tile: Tile,
-    /// Made once single cells are asked.
+    /// Made when single cells are first tested.
     rays: Option<RayCaster>,
 }
 
@@ -44,14 +44,14 @@ impl Projected {
         Projected { shadow, raised, above, scene: scene.clone(), raster_from_local, tile, rays: None }
     }
 
-    /// Lets everything fall at every instant: the twin by which culling is proven.
+    /// Projects everything at every instant: the twin that tests culling.
     #[cfg(feature = "test-hooks")]
     pub fn without_culling(mut self) -> Projected {
         self.shadow.stop_culling();
         self
     }
 
-    /// What the last instant took.
+    /// The work of the last instant.
     #[cfg(feature = "test-hooks")]
     pub fn work(&self) -> ProjectedWork {
         let [reaching, clumps, rows] = self.shadow.work();
@@ -59,17 +59,17 @@ impl Projected {
     }
 }
 
-/// What an instant took.
+/// The work of an instant.
 #[cfg(feature = "test-hooks")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ProjectedWork {
-    /// In how many clumps the casters are.
+    /// The number of clumps of casters.
     pub clumps: u64,
-    /// Those of them that fell on the ground that is drawn.
+    /// The number of clumps whose shadows reach the drawn ground.
     pub reaching: u64,
-    /// Rows that their silhouette crossed, each as often as it was.
+    /// The number of rows that their silhouette crosses, each counted every time.
     pub rows: u64,
-    /// Points above the ground that were held against a face, each as often as it was.
+    /// The number of tests of points above the ground against faces.
     pub points: u64,
 }
 
@@ -82,7 +82,7 @@ impl Technique for Projected {
         Ok(DrawnMask::Bits(bits))
     }
 
-    /// Those above the ground: the ground's shadow costs little.
+    /// The cells above the ground, as the ground's shadow costs little.
     fn single_cells(&self) -> Option<SingleCells> {
         self.above.clone().map(SingleCells::Some)
     }
@@ -95,8 +95,8 @@ impl Technique for Projected {
         Ok(DrawnMask::Bits(bits))
     }
 
-    /// A ray for each cell, with the faces of the whole scene in a tree: the buckets of a few points would not pay for the
-    /// sorting of all faces.
+    /// Casts a ray for each cell, with all faces of the scene in a tree: sorting all faces into buckets does not pay
+    /// for few points.
     fn shaded_of(&mut self, to_sun: DVec3, asked: &[CellWord]) -> Result<Vec<u64>, ShadowError> {
         let Projected { raised, scene, raster_from_local, tile, rays, .. } = self;
         let rays = rays.get_or_insert_with(|| RayCaster::new(&scene.casters, reach(scene, &View::Plan(tile.plan))));
@@ -110,7 +110,7 @@ impl Technique for Projected {
             return Ok(false);
         }
         self.shadow.turn_to(tile.first, tile.size);
-        // what the last tile took goes before the next one's
+        // frees the memory of the last tile before the next one's is allocated
         self.raised = RaisedCells::none(self.scene.casters.clone());
         self.raised = RaisedCells::new(&self.scene, tile, &self.raster_from_local);
         self.above = self.raised.cells(tile.size);
@@ -123,13 +123,13 @@ impl Technique for Projected {
     }
 }
 
-/// Metres around the casters' origin → columns, rows and metres above the height at which the ground is judged. Centres of
-/// cells are whole numbers.
+/// The transform from metres around the casters' origin to columns, rows and metres above the height at which the
+/// ground is judged. Centres of cells are whole numbers.
 fn raster_from_local(scene: &Scene, grid: &Grid) -> DAffine3 {
-    // cells a metre, east and south
+    // cells per metre, east and south
     let scale = DVec2::new(1.0, -1.0) / grid.cell;
     let corner = DVec2::new(grid.west, grid.north);
-    // as for rays, what lies east of an edge through a centre counts, then what lies south
+    // as in ray casting: what is east of an edge through a centre counts, then what is south of it
     let tie = DVec2::new(TIE.x, -TIE.y);
     let origin = scene.casters.origin;
     let place = (origin.truncate() - corner) * scale - 0.5 - tie;

@@ -1,4 +1,4 @@
-//! Projected shadows on the ground, by the graphics adapter: it projects the cut faces along the sun's rays and fills
+//! Projected shadows on the ground by the graphics adapter, which projects the cut faces along the sun's rays and fills
 //! them.
 //!
 //! It is one pass per instant, without depth, stencil or silhouette: the adapter's own scan conversion makes the union
@@ -35,11 +35,11 @@ pub struct ProjectedOnGpu {
 }
 
 impl ProjectedOnGpu {
-    /// Cuts the casters at the height at which the ground is judged, and uploads them. The scene may receive on the
-    /// ground alone.
+    /// Cuts the casters at the height at which the ground is judged, and uploads them. Only the ground may receive in
+    /// the scene.
     ///
     /// # Errors
-    /// [`ShadowError`] where raster or casters do not fit the adapter.
+    /// [`ShadowError`] if the raster or the casters do not fit on the adapter.
     pub fn new(gpu: Arc<Gpu>, scene: &Scene, grid: Grid) -> Result<ProjectedOnGpu, ShadowError> {
         let Grid { width, height, .. } = grid;
         let largest = gpu.limits.max_texture_dimension_2d;
@@ -48,7 +48,7 @@ impl ProjectedOnGpu {
         }
         let raster_from_local = raster_from_local(scene, &grid);
         let (points, faces) = above(&scene.casters, &raster_from_local);
-        // from the middle, where places are finest; a centre lies half a cell beyond its whole number
+        // relative to the middle, where precision is highest; centres are half a cell from whole numbers
         let middle = dvec3(f64::from(width) - 1.0, f64::from(height) - 1.0, 0.0) / 2.0;
         let points: Vec<[f32; 3]> = points.par_iter().map(|point| (point - middle).as_vec3().to_array()).collect();
         let fall = gpu.uniform::<layout::FallUniforms>("projected.fall");
@@ -118,7 +118,7 @@ impl Technique for ProjectedOnGpu {
     }
 }
 
-/// What of the faces is above the plane: points of the raster, column, row and height, and triangles between them.
+/// The parts of faces above the plane: points (column, row, height) and triangles.
 fn above(mesh: &Mesh, raster_from_local: &DAffine3) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let points = mesh.vertices.par_iter().map(|vertex| raster_from_local.transform_point3(vertex.as_dvec3()));
     let mut points: Vec<DVec3> = points.collect();
@@ -129,7 +129,7 @@ fn above(mesh: &Mesh, raster_from_local: &DAffine3) -> (Vec<DVec3>, Vec<[u32; 3]
         if count == 0 {
             continue;
         }
-        // turned so that the one that is alone on its side comes first
+        // rotated so that the corner alone on its side comes first
         let alone = (0..3).find(|&at| stands[at] == (count == 1)).unwrap_or(0);
         let [one, next, last] = [0, 1, 2].map(|at| face[(alone + at) % 3]);
         if count == 3 {

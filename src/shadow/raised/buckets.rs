@@ -1,34 +1,34 @@
-//! Buckets over what the sun sees of the points that are judged, and the points sorted into them.
+//! Buckets over the judged points as the sun sees them.
 //!
-//! What the sun sees is as wide as the points lie across their shadows, and as high as they lie along them, foreshortened as
-//! the sun sees the ground: a linear map of the places where they fall. It only sorts; what is compared are the places.
+//! The sun sees the points as wide as they are across their shadows, and along them foreshortened as it sees the
+//! ground: a linear map of their projected places. It is only used for sorting; comparisons use the places themselves.
 
 use super::falling_face::FallingFace;
 use crate::shadow::flat::RasterBounds;
 use glam::{DMat2, DVec2, DVec3, Vec3Swizzles};
 use std::ops::RangeInclusive;
 
-/// As many bands as keep all processors busy to the end, and their buckets in the cache.
+/// The number of bands: enough to keep all processors busy, with buckets small enough for the cache.
 pub(super) const BANDS: usize = 128;
 
-/// Square buckets over all that is judged, and bands of their rows.
+/// Square buckets over all judged points, and bands of their rows.
 pub(super) struct Buckets {
-    /// Where a point falls → where the sun sees it, in cells of the raster.
+    /// From a projected place to where the sun sees it, in cells of the raster.
     seen_from_fallen: DMat2,
     low: DVec2,
     high: DVec2,
-    /// More than places are rounded by.
+    /// More than the rounding of places.
     slack: f64,
-    /// Buckets a cell.
+    /// Buckets per cell.
     scale: f64,
     columns: usize,
     rows: usize,
-    /// Rows of a band.
+    /// The rows of buckets in a band.
     band_rows: usize,
 }
 
 impl Buckets {
-    /// About as many as points.
+    /// About as many buckets as points.
     pub(super) fn new(bounds: &RasterBounds, throw: DVec2, to_sun: DVec3, points: usize) -> Buckets {
         let along = throw.try_normalize().unwrap_or(DVec2::Y);
         let foreshortened = (to_sun.z / to_sun.length()).clamp(1e-9, 1.0);
@@ -59,7 +59,7 @@ impl Buckets {
         }
     }
 
-    /// Where the sun sees what falls there.
+    /// Where the sun sees a projected place.
     pub(super) fn seen(&self, fallen: DVec3) -> DVec2 {
         self.seen_from_fallen * fallen.xy()
     }
@@ -76,7 +76,7 @@ impl Buckets {
         self.row(at) / self.band_rows
     }
 
-    /// The bands that a falling face reaches; none where it is beside all points.
+    /// The bands that a projected face reaches; `None` if it is beside all points.
     pub(super) fn bands(&self, corners: [DVec3; 3]) -> Option<RangeInclusive<usize>> {
         let [a, b, c] = corners.map(|corner| self.seen(corner));
         let (least, most) = (a.min(b).min(c) - self.slack, a.max(b).max(c) + self.slack);
@@ -85,17 +85,17 @@ impl Buckets {
     }
 }
 
-/// The points of a band that are not yet known to be in shadow, bucket by bucket.
+/// The points of a band that are not known to be in shadow yet, by bucket.
 pub(super) struct SortedPoints {
     /// The band's first row of buckets.
     first: usize,
-    /// Where each bucket's points begin, row after row; one longer.
+    /// The first point of each bucket, row by row; one entry more.
     begins: Vec<u32>,
     columns: Vec<f64>,
     rows: Vec<f64>,
     heights: Vec<f64>,
     numbers: Vec<u32>,
-    /// Not 0 where a face shades the point.
+    /// Not 0 for points that a face shades.
     shaded: Vec<u8>,
 }
 
@@ -121,7 +121,7 @@ impl SortedPoints {
             sum += *begin;
             *begin = sum;
         }
-        // filled from each bucket's end, so that its begin is left
+        // filled from the end of each bucket, which leaves its beginning
         let mut sorted = vec![(DVec3::ZERO, 0); count];
         for (at, number) in points.flatten() {
             let slot = &mut begins[bucket(*at)];
@@ -143,12 +143,12 @@ impl SortedPoints {
         self.numbers.is_empty()
     }
 
-    /// How much there is to go through: points and buckets.
+    /// The work of a pass: points and buckets.
     pub(super) fn size(&self) -> usize {
         self.numbers.len() + self.begins.len()
     }
 
-    /// Marks the points that a face covers and is higher than, and tells against how many it was held.
+    /// Marks the points that a face covers and is higher than. Returns the number of points that were tested.
     pub(super) fn hold_against(&mut self, buckets: &Buckets, face: &FallingFace) -> usize {
         let seen = face.corners.map(|corner| buckets.seen(corner));
         let [a, b, c] = seen;
@@ -180,7 +180,7 @@ impl SortedPoints {
         held
     }
 
-    /// Tells the numbers of the points in shadow, and keeps the others.
+    /// Calls `tell` with the indices of points in shadow, and keeps the others.
     pub(super) fn drop_shaded(&mut self, tell: impl Fn(u32)) {
         let (mut kept, mut begin) = (0, 0);
         for bucket in 0..self.begins.len() - 1 {
@@ -211,7 +211,7 @@ impl SortedPoints {
     }
 }
 
-/// From where to where a triangle reaches between two rows.
+/// The extent of a triangle between two rows.
 fn columns_between(corners: &[DVec2; 3], first: f64, last: f64) -> [f64; 2] {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     for at in 0..3 {

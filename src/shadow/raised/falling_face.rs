@@ -1,22 +1,22 @@
-//! A caster's face as the sun sees it.
+//! A caster's face, projected along the sun.
 
 use glam::{DVec2, DVec3, Vec3Swizzles};
 
-/// A caster's face as it falls along the sun.
+/// A caster's face, projected along the sun.
 pub(super) struct FallingFace {
-    /// Where they fall, and their heights.
+    /// The projected corners, with their heights.
     pub(super) corners: [DVec3; 3],
-    /// From where to where its heights reach.
+    /// The range of its heights.
     low: f64,
     high: f64,
-    /// Per side a linear function that is nowhere below 0 on the face: factors of column and row, and a constant.
+    /// For each side a linear function that is never negative on the face: factors of column and row, and a constant.
     sides: [DVec3; 3],
-    /// The height over it, in the same way.
+    /// Its height as such a function.
     height: DVec3,
 }
 
 impl FallingFace {
-    /// None where the sun sees it from its edge: then it shades nothing.
+    /// `None` if the sun sees it edge-on: then it shades nothing.
     pub(super) fn new(vertices: [u32; 3], corners: [DVec3; 3]) -> Option<FallingFace> {
         let [a, b, c] = corners;
         let normal = (b - a).cross(c - a);
@@ -24,7 +24,7 @@ impl FallingFace {
             return None;
         }
         let side = |from: usize, to: usize| {
-            // from the lower vertex to the higher, whichever face asks, so that neighbours find the same but for its sign
+            // always from the lower vertex to the higher, so that neighbours compute the same up to the sign
             let is_turned = vertices[from] > vertices[to];
             let [start, end] = if is_turned { [corners[to], corners[from]] } else { [corners[from], corners[to]] };
             let across = DVec2::new(start.y - end.y, end.x - start.x);
@@ -45,7 +45,7 @@ impl FallingFace {
     pub(super) fn shades(&self, column: f64, row: f64, height: f64) -> bool {
         let of = |line: &DVec3| line.x * column + line.y * row + line.z;
         let [one, other, third] = [of(&self.sides[0]), of(&self.sides[1]), of(&self.sides[2])];
-        // nearly edge-on the height over it wavers, but not beyond its corners
+        // for nearly edge-on faces the height is inaccurate, but stays within its corners'
         let over = of(&self.height).min(self.high).max(self.low);
         (one >= 0.0) & (other >= 0.0) & (third >= 0.0) & (over > height)
     }

@@ -1,15 +1,15 @@
-//! Shadows on all that a plan sees above the ground, exactly: the cells are sorted into buckets as the sun sees them, and
-//! every caster's face is held against those in the buckets below it.
+//! Exact shadows on everything above the ground that a plan sees: the cells are sorted into buckets as the sun sees
+//! them, and every caster's face is tested against the cells in the buckets that it covers.
 //!
-//! T. Aila and S. Laine, *Alias-Free Shadow Maps*, and G. Johnson and others, *The Irregular Z-Buffer* (both 2004): a shadow
-//! map whose samples are the very points that ask. Seen along the sun, on the raster that the ground's shadow is drawn on, a
-//! point is a column, a row and a height, and a face is a triangle over which height is linear; the face shades the point
-//! where it covers it and is higher there. All is in double precision, and neighbouring faces ask with the same numbers at
-//! the edge that they share, so no point falls between them.
+//! T. Aila and S. Laine, *Alias-Free Shadow Maps*, and G. Johnson et al., *The Irregular Z-Buffer* (both 2004): a
+//! shadow map whose samples are exactly the judged points. Projected along the sun onto the raster of the ground's
+//! shadow, a point is a column, a row and a height, and a face is a triangle with linear height. The face shades the
+//! point if it covers it and is higher there. Everything is in double precision, and neighbouring faces compute with
+//! the same numbers at their shared edge, so no point is lost between them.
 //!
-//! The buckets are squares of what the sun sees ([`buckets`]), not of the raster: a low sun throws points at different
-//! heights far apart on the raster, and sees them close together. Faces are left out by clumps where they cannot reach
-//! the points, and points that are in shadow are dropped, so that what stands behind the first shade costs little.
+//! The buckets are squares of the sun's view ([`buckets`]), not of the raster: with a low sun, points at different
+//! heights are far apart on the raster, but close together in the sun's view. Clumps of faces that cannot reach the
+//! points are skipped, and points in shadow are dropped, so what is behind the first shade costs little.
 
 mod buckets;
 mod falling_face;
@@ -31,32 +31,32 @@ use std::sync::atomic::{AtomicU8, AtomicU64, Ordering};
 pub(super) struct RaisedCells {
     /// The judged points: column, row, height.
     points: Vec<DVec3>,
-    /// Per point its column in the tile, and which of the normals is its face's.
+    /// For each point its column in the tile, and the index of its face's normal.
     columns: Vec<u32>,
     normal_of: Vec<u32>,
-    /// The seen side's normal of each face that is seen.
+    /// The visible side's normal of each visible face.
     normals: Vec<DVec3>,
-    /// Where each row's points begin; one longer than the tile has rows.
+    /// The first point of each row; one entry more.
     row_first: Vec<usize>,
-    /// Words of bits in a row of the tile.
+    /// The words in a row of the tile's bits.
     in_row: usize,
     /// A box around the points.
     bounds: RasterBounds,
     faces: Mesh,
-    /// Per point whether it is in shadow.
+    /// For each point, whether it is in shadow.
     shaded: Vec<AtomicU8>,
-    /// How many points were held against a face under the last sun, each as often as it was.
+    /// The number of tests of points against faces under the last sun.
     held: AtomicU64,
 }
 
-/// The casters' vertices as columns, rows and heights, and how they fall: so many columns and rows a metre of height.
+/// The casters' vertices as columns, rows and heights, and the shadow's columns and rows per metre of height.
 pub(super) struct Falling<'a> {
     pub(super) tops: &'a [DVec3],
     pub(super) throw: DVec2,
 }
 
 impl Falling<'_> {
-    /// Where a point falls, with its height.
+    /// Where a point is projected to, with its height.
     fn of(&self, point: DVec3) -> DVec3 {
         (point.xy() - self.throw * point.z).extend(point.z)
     }
@@ -83,7 +83,7 @@ impl RaisedCells {
         }
     }
 
-    /// Looks down on the receivers; `raster_from_local` as the ground's shadow has it.
+    /// Looks down on the receivers; `raster_from_local` is that of the ground's shadow.
     pub(super) fn new(scene: &Scene, tile: Tile, raster_from_local: &DAffine3) -> RaisedCells {
         let Scene { casters, receivers, ground } = scene;
         let mut number = vec![u32::MAX; receivers.faces.len()];
@@ -107,7 +107,7 @@ impl RaisedCells {
                     raised.normals.push(seen_normal(receivers.planes()[face[cell] as usize], DVec4::Z));
                 }
                 let normal = raised.normals[*number as usize];
-                // the raster's whole numbers are the very places that are judged
+                // the raster's whole numbers are exactly the judged places
                 let plane = raster_from_local.transform_point3(DVec3::Z * (height[cell] - receivers.origin.z));
                 let at = DVec3::new(f64::from(first_column + column), f64::from(first_row + row), plane.z);
                 let point = at + raster_from_local.transform_vector3(normal * JUDGED_ABOVE_M);
@@ -122,8 +122,7 @@ impl RaisedCells {
         raised
     }
 
-    /// Sets the bits of the raised cells, in the shadow of the casters, whose vertices are falling and whose faces are in
-    /// clumps.
+    /// Sets the bits of the raised cells. `falling` has the casters' vertices, `clumps` their faces.
     pub(super) fn draw(&self, to_sun: DVec3, falling: &Falling<'_>, clumps: &Clumps, bits: &mut Bits) {
         if self.points.is_empty() {
             return;
@@ -140,7 +139,7 @@ impl RaisedCells {
         self.mark(bits);
     }
 
-    /// The cells, of a tile of so many columns and rows; none where there are none.
+    /// The cells as bits of a tile of this size; `None` if there are none.
     pub(super) fn cells(&self, [width, height]: [u32; 2]) -> Option<Arc<Bits>> {
         let mut cells = Bits::new(width, height);
         for (row, words) in cells.words.chunks_mut(self.in_row).enumerate().take(self.row_first.len() - 1) {
@@ -151,7 +150,7 @@ impl RaisedCells {
         (!self.points.is_empty()).then(|| Arc::new(cells))
     }
 
-    /// Of some raised cells those that are in shadow, each judged by itself: whether anything stands between a point (column,
+    /// Which of some raised cells are in shadow, each tested on its own: whether anything is between its point (column,
     /// row, height) and the sun.
     pub(super) fn shaded_of(
         &self,
@@ -173,14 +172,14 @@ impl RaisedCells {
         asked.par_iter().map(shaded).collect()
     }
 
-    /// How many points were held against a face under the last sun, each as often as it was.
+    /// The number of tests of points against faces under the last sun.
     #[cfg(feature = "test-hooks")]
     pub(super) fn held(&self) -> u64 {
         self.held.load(Ordering::Relaxed)
     }
 
-    /// Per run of points, and per band, those that may see the sun. The others are in shadow, and ask no further: their
-    /// seen side looks away.
+    /// For each task and band, the points that may see the sun. The others are in shadow, since their visible side
+    /// faces away.
     fn points_in_bands(&self, buckets: &Buckets, to_sun: DVec3, falling: &Falling<'_>) -> Vec<Vec<Vec<(DVec3, u32)>>> {
         let away: Vec<bool> = self.normals.iter().map(|normal| normal.dot(to_sun) <= 0.0).collect();
         let of_run = |run: Range<usize>| {
@@ -198,7 +197,7 @@ impl RaisedCells {
         split(self.points.len(), runs()).into_par_iter().map(of_run).collect()
     }
 
-    /// Per run of the clumps that reach the points, and per band, the faces that may shade some.
+    /// For each task of the clumps that reach the points, and each band, the faces that may shade some.
     fn faces_in_bands(&self, buckets: &Buckets, falling: &Falling<'_>, clumps: &Clumps) -> Vec<Vec<Vec<u32>>> {
         let mut reaching = Vec::new();
         clumps.reach(&Judged::new(self.bounds, falling.throw), &mut reaching);
@@ -218,7 +217,7 @@ impl RaisedCells {
         reaching.par_chunks(reaching.len().div_ceil(runs()).max(1)).map(of_run).collect()
     }
 
-    /// Holds a band's points against the faces there.
+    /// Tests a band's points against the faces there.
     fn shade<'a>(
         &self,
         mut sorted: SortedPoints,
@@ -227,7 +226,7 @@ impl RaisedCells {
         falling: &Falling<'_>,
     ) {
         let shade = |at: u32| self.shaded[at as usize].store(1, Ordering::Relaxed);
-        // dropping costs as much as holding against some faces
+        // dropping points costs as much as testing them against a few faces
         let (mut all, mut held, mut enough) = (0, 0, 4 * sorted.size());
         for &face in faces {
             if sorted.is_empty() {
@@ -246,7 +245,7 @@ impl RaisedCells {
         self.held.fetch_add((all + held) as u64, Ordering::Relaxed);
     }
 
-    /// Sets the bits of the cells that are in shadow, and takes away those of the others.
+    /// Sets the bits of the cells in shadow, and clears those of the others.
     fn mark(&self, bits: &mut Bits) {
         let in_row = bits.in_row();
         bits.words.par_chunks_mut(in_row).enumerate().for_each(|(row, words)| {
@@ -260,12 +259,12 @@ impl RaisedCells {
     }
 }
 
-/// Into how many runs work is split.
+/// The number of tasks.
 fn runs() -> usize {
     4 * rayon::current_num_threads()
 }
 
-/// Runs of about equal length.
+/// Ranges of about equal length.
 fn split(count: usize, runs: usize) -> Vec<Range<usize>> {
     let run = count.div_ceil(runs).max(1);
     (0..count.div_ceil(run)).map(|at| at * run..((at + 1) * run).min(count)).collect()

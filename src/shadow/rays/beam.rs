@@ -1,4 +1,4 @@
-//! Up to 64 parallel rays at once: those that lie close together go through the tree as one.
+//! Up to 64 parallel rays at once: groups of nearby rays traverse the tree together.
 
 use super::frame::{BeamFrame, around, reference};
 use super::lanes::{LaneWork, Lanes, Simd};
@@ -8,25 +8,25 @@ use super::shear::Shear;
 use super::tree::{EIGHT, TriangleBlock, WideTree};
 use glam::{DVec3, Vec3};
 
-/// How many rays a beam has at most.
+/// The most rays of a beam.
 pub(super) const MOST_RAYS: usize = 64;
 
-/// No level has more lanes.
+/// The most lanes of any level.
 const MOST_LANES: usize = 16;
 
-/// Parallel rays in groups that lie close together.
+/// Parallel rays, in groups of nearby ones.
 pub(super) struct Beam<'a> {
     shear: &'a Shear,
     reference: [f32; 3],
     /// Their origins, by the rays' axes.
     places: [[f64; MOST_RAYS]; 3],
-    /// Of each ray, in the groups' order: where it meets the plane and how far ahead it begins.
+    /// For each ray, in group order: where it meets the plane, and how far ahead it begins.
     rays: [[f32; MOST_RAYS]; 3],
-    /// Which ray it is.
+    /// The rays' original indices.
     number: [u8; MOST_RAYS],
 }
 
-/// What rays of a group lie between.
+/// The bounds of a group's rays.
 #[derive(Clone, Copy)]
 struct Spread {
     low: [f32; 3],
@@ -50,14 +50,14 @@ impl Spread {
     }
 }
 
-/// Two groups are asked apart if their outlines are together so much shorter than the whole's.
+/// Two groups are separated if the sum of their outlines is shorter than this share of the whole's.
 const APART: f32 = 0.8;
 
-/// The outline of a square of 8 by 8 rays is 14 steps from one to the next, and somewhat more where it is askew.
+/// The outline of a square of 8 by 8 rays is 14 steps between rays, and somewhat more if it is skewed.
 const MOST_STEPS: f32 = 24.0;
 
 impl<'a> Beam<'a> {
-    /// Up to [`MOST_RAYS`] rays, one at least.
+    /// Makes a beam of 1 to [`MOST_RAYS`] rays.
     fn new(shear: &'a Shear, origins: &[DVec3]) -> Beam<'a> {
         let reference = reference(shear, origins[0]);
         let mut beam = Beam {
@@ -90,7 +90,7 @@ impl<'a> Beam<'a> {
         spread
     }
 
-    /// Whether rays that come row by row lie so near each other that there is nothing to look for.
+    /// Whether rays in row order are so close together that no groups need to be found.
     fn is_even(&self, from: usize, to: usize, spread: &Spread) -> bool {
         let mut step = Spread::NOTHING;
         step.with(self.ray(from));
@@ -98,7 +98,7 @@ impl<'a> Beam<'a> {
         spread.outline() <= step.outline() * MOST_STEPS
     }
 
-    /// The next group that begins with a ray: where it ends, and what it lies between.
+    /// The group that begins with a ray: its end, and its bounds.
     fn group(&mut self, from: usize, mut to: usize) -> (usize, Spread) {
         let mut spread = self.spread(from, to);
         if self.is_even(from, to, &spread) {
@@ -135,7 +135,7 @@ impl<'a> Beam<'a> {
         }
     }
 
-    /// How far the rays from one on, as many as there are lanes, go to a triangle that they hit: decided in double precision.
+    /// The distances to a triangle of consecutive rays, one per lane, decided in double precision.
     #[inline(always)]
     fn hits<L: Lanes>(&self, first: usize, triangle: &[Vec3; 3]) -> [f64; MOST_LANES] {
         let mut distances = [f64::INFINITY; MOST_LANES];
@@ -149,7 +149,7 @@ impl<'a> Beam<'a> {
         distances
     }
 
-    /// The rays of some lanes.
+    /// The values of consecutive rays, one per lane.
     #[inline(always)]
     fn lanes<L: Lanes>(&self, at: usize) -> [L; 3] {
         let [right, up, ahead] = &self.rays;
@@ -157,7 +157,7 @@ impl<'a> Beam<'a> {
     }
 }
 
-/// Which of some parallel rays anything lies along: a bit for each.
+/// Tests which of some parallel rays are blocked: a bit for each.
 pub(super) struct BlockedBeam<'a> {
     pub(super) tree: &'a WideTree,
     pub(super) shear: &'a Shear,
@@ -187,12 +187,12 @@ impl LaneWork for BlockedBeam<'_> {
     }
 }
 
-/// Bits of a group's rays.
+/// The bits of a group's rays.
 fn group_bits(from: usize, to: usize) -> u64 {
     (u64::MAX >> (MOST_RAYS - (to - from))) << from
 }
 
-/// Rays of a group that a triangle may be hit by: calls with the first of each set of lanes, and a bit a lane.
+/// Calls `ask` for each set of lanes with rays that may hit a triangle: the first ray's index, and a bit per lane.
 #[inline(always)]
 fn each_set<L: Lanes>(rays: u64, mut ask: impl FnMut(usize, u32)) {
     let mut first = rays.trailing_zeros() as usize / L::COUNT * L::COUNT;
@@ -207,7 +207,7 @@ fn each_set<L: Lanes>(rays: u64, mut ask: impl FnMut(usize, u32)) {
 
 struct AnyHits<'a> {
     beam: &'a Beam<'a>,
-    /// The rays that nothing has been met by yet, in the groups' order.
+    /// The rays that are not blocked so far, in group order.
     open: u64,
 }
 
@@ -247,7 +247,7 @@ impl BlockVisitor for AnyHits<'_> {
     }
 }
 
-/// The nearest face along each of some parallel rays, as one alone finds it.
+/// Finds the nearest face along each of some parallel rays, with the same result as for single rays.
 pub(super) struct FirstHits<'a> {
     pub(super) tree: &'a WideTree,
     pub(super) shear: &'a Shear,

@@ -1,4 +1,4 @@
-//! One mesh, and the rays that are cast at it.
+//! Casts rays at one mesh.
 
 use super::beam::{BlockedBeam, FirstHits, MOST_RAYS};
 use super::lanes::SimdLevel;
@@ -8,7 +8,7 @@ use super::tree::WideTree;
 use crate::mesh::Mesh;
 use glam::DVec3;
 
-/// Casts rays at one mesh. Points and directions are around the mesh's origin.
+/// Casts rays at one mesh. Points and directions are relative to the mesh's origin.
 #[doc(hidden)]
 pub struct RayCaster {
     tree: WideTree,
@@ -16,47 +16,49 @@ pub struct RayCaster {
 }
 
 impl RayCaster {
-    /// How many parallel rays are asked at once.
+    /// The number of parallel rays that can be traced at once.
     pub const MOST_RAYS: usize = MOST_RAYS;
 
-    /// Builds the tree; `reach` is the farthest that a ray's origin lies from the mesh's origin, metres.
+    /// Builds the tree; `reach` is the greatest distance of a ray's origin from the mesh's origin, metres.
     pub fn new(mesh: &Mesh, reach: f64) -> RayCaster {
         let size = mesh.vertices.iter().fold(0.0f32, |size, vertex| size.max(vertex.abs().max_element()));
-        // a ray's place in single precision, slid along it, and the products that say when it meets a plane
+        // covers the rounding of a ray's place in single precision, slid along it, and of the products in plane tests
         let padding = (f64::from(size) + reach) * f64::from(f32::EPSILON) * 16.0;
         RayCaster { tree: WideTree::new(mesh, padding as f32), level: SimdLevel::best() }
     }
 
-    /// The same with instructions of one level: for tests, and to measure.
+    /// The same with the instructions of one level, for tests and measurements.
     #[cfg(feature = "test-hooks")]
     pub fn on(self, level: SimdLevel) -> RayCaster {
         RayCaster { level, ..self }
     }
 
-    /// The nearest face along a ray, and how many lengths of `direction` away. Of several that are equally near the first.
+    /// Returns the nearest face along a ray, and its distance in lengths of `direction`; of equally near ones the
+    /// first.
     pub fn first_hit(&self, origin: DVec3, direction: DVec3) -> Option<(u32, f64)> {
         self.level.run(FirstHit { tree: &self.tree, shear: &Shear::along(direction), origin })
     }
 
-    /// Whether anything lies along a ray.
+    /// Whether anything is in the way of a ray.
     pub fn blocked(&self, origin: DVec3, shear: &Shear) -> bool {
         self.level.run(BlockedRay { tree: &self.tree, shear, origin })
     }
 
-    /// Along which of up to [`RayCaster::MOST_RAYS`] parallel rays anything lies: a bit for each. Rays that lie close together
-    /// cost a fraction of what they cost one by one.
+    /// Returns which of up to [`RayCaster::MOST_RAYS`] parallel rays are blocked: a bit for each. Rays that are close
+    /// together cost a fraction of single ones.
     pub fn blocked_beam(&self, origins: &[DVec3], shear: &Shear) -> u64 {
         if origins.is_empty() { 0 } else { self.level.run(BlockedBeam { tree: &self.tree, shear, origins }) }
     }
 
-    /// As [`RayCaster::first_hit`], for up to [`RayCaster::MOST_RAYS`] parallel rays at once: each one's place in `hits` is set.
+    /// As [`RayCaster::first_hit`], for up to [`RayCaster::MOST_RAYS`] parallel rays at once; sets each one's entry in
+    /// `hits`.
     pub fn first_hits(&self, origins: &[DVec3], shear: &Shear, hits: &mut [Option<(u32, f64)>]) {
         if !origins.is_empty() {
             self.level.run(FirstHits { tree: &self.tree, shear, origins, hits });
         }
     }
 
-    /// How many faces lie along a ray: the count that a shadow volume must have at its origin.
+    /// Returns the number of faces along a ray: the count that a shadow volume must have at its origin.
     #[cfg(feature = "test-hooks")]
     pub fn crossings(&self, origin: DVec3, direction: DVec3) -> usize {
         let shear = Shear::along(direction);

@@ -1,24 +1,24 @@
-//! Parallel rays in the frame of their direction, against boxes.
+//! Parallel rays in the frame of their direction, tested against boxes.
 
 use super::lanes::Lanes;
 use super::shear::Shear;
 use super::tree::WideNode;
 
-/// Some parallel rays, each where it meets the plane through the reference across their longest axis, and how far ahead of
-/// it it begins. Numbers are in single precision, around the reference, by the axes of [`Shear`].
+/// Parallel rays: where each meets the plane through the reference across its longest axis, and how far ahead of it it
+/// begins. Values are in single precision, relative to the reference, by the axes of [`Shear`].
 pub(super) struct BeamFrame<'a> {
     pub(super) shear: &'a Shear,
     /// By the rays' axes.
     pub(super) reference: [f32; 3],
-    /// The middle of where the rays meet the plane and of where they begin, and how far they are from there.
+    /// The middle of the rays' plane positions and starts, and the greatest distance from it.
     pub(super) middle: [f32; 3],
     pub(super) half: [f32; 3],
-    /// No number of a ray and no distance of its origin from the reference along an axis is larger.
+    /// No value of a ray, and no distance of its origin from the reference along an axis, is larger.
     pub(super) size: f32,
-    /// Where the first one begins, metres from the plane along the rays' own sense.
+    /// The earliest start, metres from the plane along the rays' direction.
     start: f32,
-    /// By axis: the plane of a box that rays meet first, the coordinate from which they come soonest to it, the plane that
-    /// they meet last and the coordinate from which they come there latest, and one by how fast they go.
+    /// By axis: the plane of a box that rays meet first and the coordinate from which they reach it soonest, the plane
+    /// that they meet last and the coordinate from which they reach it latest, and the reciprocal of their speed.
     sides: [BoxSide; 3],
 }
 
@@ -31,13 +31,13 @@ struct BoxSide {
     per_metre: f32,
 }
 
-/// The reference for rays from a point: what single precision holds of it, by the rays' axes.
+/// The reference for rays from a point: its value in single precision, by the rays' axes.
 pub(super) fn reference(shear: &Shear, origin: glam::DVec3) -> [f32; 3] {
     let [right, up, forward] = shear.axes;
     [origin[right] as f32, origin[up] as f32, origin[forward] as f32]
 }
 
-/// A ray around the reference: where it meets the plane, right and up, and how far ahead of it it begins.
+/// A ray relative to the reference: where it meets the plane, right and up, and how far ahead of it it begins.
 #[inline(always)]
 pub(super) fn around(shear: &Shear, reference: &[f32; 3], origin: glam::DVec3) -> [f32; 3] {
     let off = |at: usize| origin[shear.axes[at]] - f64::from(reference[at]);
@@ -46,7 +46,7 @@ pub(super) fn around(shear: &Shear, reference: &[f32; 3], origin: glam::DVec3) -
 }
 
 impl<'a> BeamFrame<'a> {
-    /// For rays whose numbers lie between the lowest and the highest.
+    /// The frame for rays with values between the lowest and the highest.
     #[inline(always)]
     pub(super) fn new(shear: &'a Shear, reference: [f32; 3], low: [f32; 3], high: [f32; 3]) -> BeamFrame<'a> {
         let side = |at: usize, low: f32, high: f32| {
@@ -65,7 +65,7 @@ impl<'a> BeamFrame<'a> {
             shear,
             reference,
             middle: [middle(0), middle(1), middle(2)],
-            // rounded up, as the middle is rounded
+            // rounded up, since the middle is rounded
             half: [half(0), half(1), half(2)],
             size: largest(0).max(largest(1)).max(largest(2)) * 2.0,
             start: if shear.sign < 0.0 { -high[2] } else { low[2] },
@@ -74,7 +74,7 @@ impl<'a> BeamFrame<'a> {
         }
     }
 
-    /// Which boxes of a node the rays may meet, and how soon: metres from the plane.
+    /// The boxes of a node that the rays may meet, and their distances: metres from the plane.
     #[inline(always)]
     pub(super) fn enter<L: Lanes>(&self, node: &WideNode, farthest: f32) -> (u32, L) {
         let mut near = L::splat(self.start);

@@ -1,7 +1,7 @@
-//! Numbers side by side, on whatever the processor has for them.
+//! SIMD lanes: numbers side by side, in whatever form the processor supports.
 //!
-//! All of the crate's `unsafe` is here. The instructions of a level may only run where the processor has them, and its types
-//! are only reached through [`SimdLevel::run`], for levels that were found when the program ran.
+//! All of the crate's `unsafe` code is here. The instructions of a level may only run on processors that have them. Its
+//! types are reached only through [`SimdLevel::run`], for levels that were detected at run time.
 #![expect(unsafe_code, reason = "instructions that a processor may lack can only be called so")]
 
 #[cfg(target_arch = "aarch64")]
@@ -9,15 +9,15 @@ use std::arch::aarch64::*;
 #[cfg(target_arch = "x86_64")]
 use std::arch::x86_64::*;
 
-/// Some numbers in single precision, one a lane.
+/// Several single-precision numbers, one per lane.
 pub(super) trait Lanes: Copy {
-    /// How many.
+    /// The number of lanes.
     const COUNT: usize;
     /// The same number in all lanes.
     fn splat(number: f32) -> Self;
-    /// The first numbers of a slice that has as many.
+    /// Loads the first numbers of a slice, which must have enough.
     fn load(from: &[f32]) -> Self;
-    /// Into the first places of a slice that has as many.
+    /// Stores to the first places of a slice, which must have enough.
     fn store(self, to: &mut [f32]);
     fn plus(self, other: Self) -> Self;
     fn minus(self, other: Self) -> Self;
@@ -29,7 +29,7 @@ pub(super) trait Lanes: Copy {
     /// `self · by + more`, rounded once or twice.
     fn times_plus(self, by: Self, more: Self) -> Self;
     fn size(self) -> Self;
-    /// −1 for what has the sign of −0, else 1.
+    /// −1 for numbers with the sign of −0, otherwise 1.
     fn sign(self) -> Self;
     /// A bit for each lane in which `self` is less, the first lane's lowest.
     fn less(self, other: Self) -> u32;
@@ -37,23 +37,23 @@ pub(super) trait Lanes: Copy {
     fn if_less(self, other: Self, then: Self, otherwise: Self) -> Self;
 }
 
-/// The types of a level: eight lanes for what lies in eights, and as many as there are at once for rays.
+/// The types of a level: one with eight lanes for boxes and triangles, and one with the widest lanes for rays.
 pub(super) trait Simd {
     type Eight: Lanes;
     type Many: Lanes;
 }
 
-/// What is done with numbers side by side. `run` has to be inlined always: only so do the instructions stand where they may.
+/// A computation on lanes. `run` must always be inlined, so that its instructions are compiled for the level.
 pub(super) trait LaneWork {
     type Output;
     fn run<S: Simd>(self) -> Self::Output;
 }
 
-/// Which instructions rays are asked with. Answers are the same on every level.
+/// The instructions for tracing rays. Results are the same on every level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[doc(hidden)]
 pub enum SimdLevel {
-    /// What every processor of the architecture has, as the compiler finds it.
+    /// The instructions that every processor of the architecture has, as the compiler chooses them.
     Plain,
     /// AVX2 and FMA: eight lanes.
     #[cfg(target_arch = "x86_64")]
@@ -61,13 +61,13 @@ pub enum SimdLevel {
     /// AVX-512: sixteen lanes for rays.
     #[cfg(target_arch = "x86_64")]
     Avx512,
-    /// NEON: four lanes, taken twice.
+    /// NEON: four lanes, used twice.
     #[cfg(target_arch = "aarch64")]
     Neon,
 }
 
 impl SimdLevel {
-    /// All that this processor has, the best one last.
+    /// Returns all levels that this processor has, the best one last.
     pub fn all() -> Vec<SimdLevel> {
         let mut all = vec![SimdLevel::Plain];
         #[cfg(target_arch = "x86_64")]
@@ -84,7 +84,7 @@ impl SimdLevel {
         all
     }
 
-    /// The best of them.
+    /// The best level.
     pub(super) fn best() -> SimdLevel {
         Self::all().pop().unwrap_or(SimdLevel::Plain)
     }
@@ -124,7 +124,7 @@ fn on_neon<W: LaneWork>(work: W) -> W::Output {
     work.run::<NeonLevel>()
 }
 
-/// Loops over arrays, which the compiler turns into the instructions that every processor of the architecture has.
+/// Loops over arrays, which the compiler vectorises with the architecture's baseline instructions.
 struct PlainLevel;
 
 impl Simd for PlainLevel {
@@ -199,7 +199,7 @@ impl Lanes for PlainEight {
     }
 }
 
-/// Functions of lanes that are one instruction each.
+/// Lane functions that are a single instruction.
 #[cfg(target_arch = "x86_64")]
 macro_rules! instructions {
     ($($name:ident($($other:ident),*) is $instruction:ident;)*) => {$(
@@ -352,7 +352,7 @@ impl Simd for NeonLevel {
 #[derive(Clone, Copy)]
 struct NeonEight(float32x4_t, float32x4_t);
 
-/// Functions of lanes that are one instruction for each half.
+/// Lane functions that are one instruction for each half.
 #[cfg(target_arch = "aarch64")]
 macro_rules! halves {
     ($($name:ident($($other:ident),*) is $instruction:ident;)*) => {$(

@@ -1,5 +1,5 @@
-//! Rays against triangles: a tree of boxes, and triangles in blocks of eight, both asked with SIMD; what those cannot rule
-//! out is decided in double precision. Parallel rays that lie close together are asked at once, as a beam.
+//! Tests rays against triangles: a tree of boxes and blocks of eight triangles, both tested with SIMD; what these
+//! cannot exclude is decided in double precision. Parallel rays that are close together are traced at once, as a beam.
 
 mod beam;
 mod caster;

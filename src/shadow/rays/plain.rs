@@ -1,5 +1,5 @@
-//! The slow twin: rays one by one through a tree of its own, every triangle that it finds decided in double precision.
-//! By it, and by asking all faces, the fast caster is proven.
+//! The slow twin: traces rays one by one through a tree of its own, and decides every triangle that it finds in double
+//! precision. With it, and with tests of all faces, the fast caster is verified.
 
 use super::shear::Shear;
 use crate::mesh::Mesh;
@@ -10,24 +10,25 @@ use obvhs::{BvhBuildParams, aabb::Aabb};
 use rayon::prelude::*;
 use std::time::Duration;
 
-/// Casts rays at one mesh, as [`RayCaster`](super::RayCaster) does, with neither SIMD nor beams.
+/// Casts rays at one mesh as [`RayCaster`](super::RayCaster) does, without SIMD or beams.
 #[doc(hidden)]
 pub struct PlainCaster {
     tree: Option<CwBvh>,
-    /// Corners of the faces in the tree's order, and which faces they are.
+    /// The corners of faces in the tree's order, and the faces' indices.
     corners: Vec<[Vec3; 3]>,
     faces: Vec<u32>,
 }
 
-/// The tree looks past boxes that a ray has left so early, in lengths of the ray's direction (`EPSILON` of obvhs 0.4).
+/// The tree skips boxes that a ray leaves before this distance, in lengths of the ray's direction (`EPSILON` of obvhs
+/// 0.4).
 const LOOKED_PAST: f64 = 1e-4;
 
 impl PlainCaster {
-    /// Builds the tree; `reach` is the farthest that a ray's origin lies from the mesh's origin, metres.
+    /// Builds the tree; `reach` is the greatest distance of a ray's origin from the mesh's origin, metres.
     pub fn new(mesh: &Mesh, reach: f64) -> PlainCaster {
         let size = mesh.vertices.iter().fold(0.0f32, |size, vertex| size.max(vertex.abs().max_element()));
         let rounding = (f64::from(size) + reach) * f64::from(f32::EPSILON) * 8.0;
-        // the tree's rays have unit directions: whatever they meet within the first of it lies in a box that they leave later
+        // the tree's rays have unit directions, so padded boxes end beyond the distance that it skips
         let padding = Vec3A::splat((rounding + 2.0 * LOOKED_PAST) as f32);
         let box_of = |face: usize| {
             let [a, b, c] = mesh.corners(face).map(Vec3A::from);
@@ -40,7 +41,8 @@ impl PlainCaster {
         PlainCaster { tree, corners: faces.iter().map(|&face| mesh.corners(face as usize)).collect(), faces }
     }
 
-    /// The nearest face along a ray, and how many lengths of `direction` away. Of several that are equally near the first.
+    /// Returns the nearest face along a ray, and its distance in lengths of `direction`; of equally near ones the
+    /// first.
     pub fn first_hit(&self, origin: DVec3, direction: DVec3) -> Option<(u32, f64)> {
         let shear = Shear::along(direction);
         let length = direction.length();
@@ -53,7 +55,7 @@ impl PlainCaster {
             {
                 so_far = (t, self.faces[at]);
                 nearest = Some((self.faces[at], t));
-                // a tree that looks past what is nearer would end here, and another face as near may come
+                // the tree must continue at this distance, as another face may be equally near, and must not skip it
                 return ((t * length) as f32).next_up().max(2.0 * LOOKED_PAST as f32);
             }
             f32::INFINITY
@@ -61,7 +63,7 @@ impl PlainCaster {
         nearest
     }
 
-    /// Whether anything lies along a ray.
+    /// Whether anything is in the way of a ray.
     pub fn blocked(&self, origin: DVec3, direction: DVec3) -> bool {
         let shear = Shear::along(direction);
         let hit = |_: &Ray, at: usize| {
@@ -72,6 +74,6 @@ impl PlainCaster {
 }
 
 fn ray(origin: DVec3, direction: DVec3) -> Ray {
-    // + 0 makes −0 into 0, of which the tree takes one sign for the direction and the other for its inverse
+    // adding 0 turns −0 into 0: the tree uses the sign of the direction and of its inverse
     Ray::new_inf(origin.as_vec3a(), direction.normalize().as_vec3a() + Vec3A::ZERO)
 }

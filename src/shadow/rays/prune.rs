@@ -1,47 +1,49 @@
-//! What single precision can say of rays and triangles: which rays surely miss, and which triangles surely lie behind.
+//! What single precision can decide about rays and triangles: which rays certainly miss, and which triangles are
+//! certainly behind.
 //!
-//! A triangle is looked at in the plane across the rays' longest axis, as in the test in double precision. A ray misses it if
-//! one of the three edges' areas is surely negative and one surely positive. How far the areas can be off is bounded by
-//! counting roundings (η is half an ulp of 1, 2⁻²⁴). Coordinates are taken around the beam, so that what is near is known
-//! well however far the mesh's origin is. Let L be what two edges reach along an axis, taken together, and D no less than
-//! any coordinate of triangle and rays, and than any of the triangle's corners around any ray's origin. A corner in the
-//! plane is off by 8ηD, an edge by 8ηL, so that each edge's area is off by 206ηLD at most, the third being the rest. The
-//! double-precision test itself is off by less than 2⁻⁴⁵D². So both together cannot have another sign than what is farther
-//! from 0 than 320ηLD + 2⁻⁴⁵D². The whole area is off by 72ηL₁L₂, and the volume by which a triangle lies behind by 312ηL₁L₂D,
-//! in double precision by 2⁻⁴⁴D² and 2⁻⁴⁴D³.
+//! A triangle is projected along the rays onto the plane across their longest axis, as in the double-precision test. A
+//! ray misses it if one of the three edges' areas is certainly negative and another certainly positive. The error of
+//! the areas is bounded by counting roundings (η is half an ulp of 1, 2⁻²⁴). Coordinates are relative to the beam, so
+//! nearby values are accurate however far the mesh's origin is. Let L be the extent of two edges together along an
+//! axis, and D an upper bound of all coordinates of triangle and rays, and of the triangle's corners relative to any
+//! ray's origin. The error of a corner in the plane is 8ηD, of an edge 8ηL, so that of each edge's area is at most
+//! 206ηLD, the third being the rest. The error of the double-precision test itself is below 2⁻⁴⁵D². So values farther
+//! from 0 than 320ηLD + 2⁻⁴⁵D² have the right sign in both. The error of the whole area is 72ηL₁L₂, and that of the
+//! volume by which a triangle is behind is 312ηL₁L₂D; in double precision they are 2⁻⁴⁴D² and 2⁻⁴⁴D³.
 
 use super::frame::BeamFrame;
 use super::lanes::Lanes;
 use super::tree::{EIGHT, TriangleBlock};
 
 const ETA: f32 = f32::EPSILON / 2.0;
-/// Edges' areas.
+/// The roundings in edges' areas.
 const EDGE_ROUNDINGS: f32 = 320.0 * ETA;
 const EDGE_DOUBLE: f32 = 1.0 / (1u64 << 45) as f32;
-/// Twice what the area is off by: so the two other areas, of which one is more than half of it, have the other sign.
+/// Twice the roundings of the area: beyond it, one of the two other areas, which is more than half of it, has the
+/// opposite sign.
 const AREA_ROUNDINGS: f32 = 256.0 * ETA;
 const AREA_DOUBLE: f32 = 1.0 / (1u64 << 42) as f32;
-/// How far behind.
+/// The roundings of the volume.
 const BEHIND_ROUNDINGS: f32 = 384.0 * ETA;
 const BEHIND_DOUBLE: f32 = 1.0 / (1u64 << 43) as f32;
 
 /// Triangles in the plane across the rays, turned so that their areas are positive.
 #[derive(Clone, Copy)]
 pub(super) struct FlatTriangles<L> {
-    /// A corner, right, up and ahead.
+    /// A corner: right, up and ahead.
     corner: [L; 3],
-    /// From it to the two others, right and up.
+    /// The vectors from it to the two others: right and up.
     edges: [[L; 2]; 2],
     area: L,
-    /// From it on an edge's area has a sign, and what one area has to exceed for another one to count.
+    /// The threshold for the sign of an edge's area, and the value that one area must exceed for another one to decide.
     off: L,
     over: L,
-    /// The rate by which a ray's volume grows with its place, and from which volume on the triangle lies behind.
+    /// The change of a ray's volume with its place, and the volume beyond which the triangle is behind.
     across: [L; 3],
     behind: L,
 }
 
-/// As many numbers as a flat triangle has.
+/// The number of values of a flat triangle.
 const ROWS: usize = 14;
 
 #[inline(always)]
@@ -49,7 +51,7 @@ fn area<L: Lanes>(one: [L; 2], other: [L; 2]) -> L {
     one[0].times(other[1]).minus(one[1].times(other[0]))
 }
 
-/// How far an edge's area can grow or shrink over a frame's rays.
+/// The variation of an edge's area over a frame's rays.
 #[inline(always)]
 fn swing<L: Lanes>(edge: [L; 2], half: [L; 3]) -> L {
     edge[0].size().times_plus(half[1], edge[1].size().times(half[0]))
@@ -68,13 +70,13 @@ fn minus<L: Lanes>(one: [L; 3], other: [L; 3]) -> [L; 3] {
     [one[0].minus(other[0]), one[1].minus(other[1]), one[2].minus(other[2])]
 }
 
-/// Slid along the rays into the plane.
+/// Projects a corner along the rays to the plane.
 #[inline(always)]
 fn flat<L: Lanes>(along: [L; 3], less_slope: [L; 2]) -> [L; 2] {
     [along[2].times_plus(less_slope[0], along[0]), along[2].times_plus(less_slope[1], along[1])]
 }
 
-/// A number of a triangle, in all lanes.
+/// A value of one triangle, in all lanes.
 #[inline(always)]
 fn taken<L: Lanes>(rows: &[[f32; EIGHT]; ROWS], at: usize, row: usize) -> L {
     L::splat(rows[row][at])
@@ -86,7 +88,7 @@ fn reach<L: Lanes>(along: [L; 3]) -> L {
 }
 
 impl<L: Lanes> FlatTriangles<L> {
-    /// A block's triangles, for the rays of a frame.
+    /// A block's triangles for the rays of a frame.
     #[inline(always)]
     pub(super) fn of(frame: &BeamFrame<'_>, block: &TriangleBlock) -> FlatTriangles<L> {
         let [first, second, third] = [corner(frame, block, 0), corner(frame, block, 1), corner(frame, block, 2)];
@@ -112,7 +114,7 @@ impl<L: Lanes> FlatTriangles<L> {
             edges: [[e_flat[0].times(turn), e_flat[1].times(turn)], [g_flat[0].times(turn), g_flat[1].times(turn)]],
             area: whole,
             off,
-            // an edge-on triangle has no side on which its areas are positive, and no distance
+            // an edge-on triangle has no positive side, and no distance
             over: least.if_less(whole, L::splat(f32::NEG_INFINITY), off),
             across: [
                 area([e[1], e[2]], [g[1], g[2]]).times(turned),
@@ -123,7 +125,7 @@ impl<L: Lanes> FlatTriangles<L> {
         }
     }
 
-    /// The three edges' areas of a ray, and the volume by which the triangle lies behind it.
+    /// The three edges' areas of a ray, and the volume by which the triangle is behind it.
     #[inline(always)]
     fn areas(&self, ray: [L; 3]) -> ([L; 3], L) {
         let along = minus(ray, self.corner);
@@ -134,7 +136,7 @@ impl<L: Lanes> FlatTriangles<L> {
         ([one, self.area.minus(one).minus(last), last], along[2].times_plus(self.across[2], volume))
     }
 
-    /// In which lanes a ray surely misses the triangle.
+    /// The lanes in which a ray certainly misses the triangle.
     #[inline(always)]
     pub(super) fn missed(&self, ray: [L; 3]) -> u32 {
         let ([one, other, last], volume) = self.areas(ray);
@@ -144,7 +146,7 @@ impl<L: Lanes> FlatTriangles<L> {
         beside | self.behind.less(volume)
     }
 
-    /// Which triangles all rays of a frame surely miss.
+    /// The triangles that all rays of a frame certainly miss.
     #[inline(always)]
     pub(super) fn missed_by_all(&self, frame: &BeamFrame<'_>) -> u32 {
         let [right, up, ahead] = frame.middle;
@@ -162,7 +164,7 @@ impl<L: Lanes> FlatTriangles<L> {
         beside | self.behind.less(volume.minus(less))
     }
 
-    /// The numbers of all triangles, by which each is taken alone.
+    /// The values of all triangles, from which each can be taken singly.
     #[inline(always)]
     pub(super) fn rows(self) -> [[f32; EIGHT]; ROWS] {
         let mut rows = [[0.0; EIGHT]; ROWS];

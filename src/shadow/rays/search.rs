@@ -1,4 +1,4 @@
-//! Through the tree, and rays that are asked alone.
+//! Traversal of the tree, and searches for single rays.
 
 use super::frame::{BeamFrame, around, reference};
 use super::lanes::{LaneWork, Lanes, Simd};
@@ -8,16 +8,16 @@ use super::tree::{BLOCK, EIGHT, MOST_DEPTH, TriangleBlock, WideTree};
 use arrayvec::ArrayVec;
 use glam::DVec3;
 
-/// Nodes and blocks that wait: of each level all but the one that was gone into, and the last level's eight.
+/// The most nodes and blocks on the stack: seven of each level, and the last level's eight.
 const MOST_WAITING: usize = MOST_DEPTH * 7 + 8;
 
-/// What is done with the blocks that rays come to.
+/// The visitor of the blocks that rays reach.
 pub(super) trait BlockVisitor {
-    /// Whether blocks are visited from near to far, as far as they matter.
+    /// Whether blocks are visited from near to far, up to the distance that matters.
     const NEAREST_FIRST: bool;
-    /// Returns `false` when nothing more is asked.
+    /// Visits a block. Returns `false` to stop.
     fn visit<S: Simd>(&mut self, frame: &BeamFrame<'_>, block: &TriangleBlock) -> bool;
-    /// Beyond this nothing matters, metres from the frame's plane.
+    /// The greatest distance that matters, metres from the frame's plane.
     fn farthest(&self) -> f32;
 }
 
@@ -25,7 +25,7 @@ pub(super) trait BlockVisitor {
 pub(super) fn traverse<S: Simd, V: BlockVisitor>(tree: &WideTree, frame: &BeamFrame<'_>, visitor: &mut V) {
     let mut waiting = ArrayVec::<(u32, f32), MOST_WAITING>::new();
     if !tree.nodes.is_empty() {
-        // the root stands first
+        // begins with the root
         waiting.push((0, f32::NEG_INFINITY));
     }
     while let Some((at, near)) = waiting.pop() {
@@ -60,7 +60,7 @@ pub(super) fn traverse<S: Simd, V: BlockVisitor>(tree: &WideTree, frame: &BeamFr
     }
 }
 
-/// Whether anything lies along a ray.
+/// Finds whether a ray is blocked.
 pub(super) struct BlockedRay<'a> {
     pub(super) tree: &'a WideTree,
     pub(super) shear: &'a Shear,
@@ -102,7 +102,7 @@ impl BlockVisitor for AnyHit<'_> {
     }
 }
 
-/// The nearest face along a ray, and how many lengths of the direction away; of several that are equally near the first.
+/// Finds the nearest face along a ray, with its distance in lengths of the direction; of equally near ones the first.
 pub(super) struct FirstHit<'a> {
     pub(super) tree: &'a WideTree,
     pub(super) shear: &'a Shear,
@@ -141,7 +141,7 @@ pub(super) struct NearestFace {
 impl NearestFace {
     pub(super) const NOTHING: NearestFace = NearestFace { distance: f64::INFINITY, face: u32::MAX };
 
-    /// Takes a hit that is nearer, or as near and of a face that comes before.
+    /// Takes a hit that is nearer, or equally near with a lower face index.
     #[inline(always)]
     pub(super) fn take(&mut self, distance: f64, face: u32) -> bool {
         let nearer =
@@ -156,10 +156,10 @@ impl NearestFace {
         (self.distance < f64::INFINITY).then_some((self.face, self.distance))
     }
 
-    /// In metres from a frame's plane, rounded up.
+    /// The distance in metres from a frame's plane, rounded up.
     #[inline(always)]
     pub(super) fn farthest(self, shear: &Shear, ray_ahead: f32, sign: f32) -> f32 {
-        // a rounding more than the box's own padding does not matter
+        // one more rounding is within the boxes' padding
         ((self.distance / shear.scale.z.abs() + f64::from(ray_ahead * sign)) as f32).next_up()
     }
 }
@@ -189,7 +189,7 @@ fn splat<L: Lanes>(ray: [f32; 3]) -> [L; 3] {
     [L::splat(ray[0]), L::splat(ray[1]), L::splat(ray[2])]
 }
 
-/// The bits that are set.
+/// The indices of the bits that are set.
 #[inline(always)]
 pub(super) fn bits(mut set: u32) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {

@@ -1,27 +1,27 @@
-//! The frame in which parallel rays are an axis, and the test in double precision that decides.
+//! The frame in which parallel rays are an axis, and the deciding test in double precision.
 
 use super::tree::EIGHT;
 use glam::{DVec3, Vec3};
 
-/// The frame in which a direction is an axis, the same for all parallel rays.
+/// The frame in which a direction is an axis; it is the same for all parallel rays.
 #[doc(hidden)]
 pub struct Shear {
-    /// The axes to the right, up and forward: the direction is longest along the last one.
+    /// The axes right, up and forward: the direction's largest component is along forward.
     pub(super) axes: [usize; 3],
-    /// How far the direction leads to the right and up for one metre forward, and 1 by its length forward.
+    /// The direction's change to the right and up for one metre forward, and the reciprocal of its forward component.
     pub(super) scale: DVec3,
-    /// In single precision, for what only rules out: how far the direction leads right and up for one metre along the forward
-    /// axis, 1 where it leads along that axis and −1 where against it, and by axis one by how fast it goes.
+    /// In single precision, for excluding only: the change to the right and up for one metre along the forward axis,
+    /// the direction's sign along that axis, and for each axis the reciprocal of its speed.
     pub(super) slope: [f32; 2],
     pub(super) sign: f32,
     pub(super) per_metre: [f32; 3],
 }
 
-/// As little as a ray may lean away from an axis: less moves nothing by a rounding.
+/// The least slope of a ray against an axis: smaller ones have no effect after rounding.
 const LEAST_SLOPE: f32 = 1e-12;
 
 impl Shear {
-    /// For rays along a direction that is not zero.
+    /// For rays along a direction, which must not be zero.
     pub fn along(direction: DVec3) -> Shear {
         let forward = direction.abs().max_position();
         let (mut right, mut up) = ((forward + 1) % 3, (forward + 2) % 3);
@@ -39,8 +39,8 @@ impl Shear {
         Shear { axes: [right, up, forward], scale, slope, sign, per_metre }
     }
 
-    /// As [`Shear::hit`], of eight parallel rays: the same numbers in the same order, side by side where the processor has
-    /// instructions for that. Origins are given by the rays' axes; what is not hit is infinitely far.
+    /// As [`Shear::hit`] for eight parallel rays: the same computation in the same order, with SIMD if the processor
+    /// has it. Origins are by the rays' axes. A miss has an infinite distance.
     #[inline(always)]
     pub(super) fn hits(&self, origins: [&[f64; EIGHT]; 3], corners: &[Vec3; 3]) -> [f64; EIGHT] {
         let mut hits = [f64::INFINITY; EIGHT];
@@ -71,7 +71,8 @@ impl Shear {
         hits
     }
 
-    /// How many lengths of the direction away the ray meets the triangle; none behind the origin or beside it.
+    /// The distance at which a ray meets the triangle, in lengths of the direction; `None` behind the origin or beside
+    /// it.
     #[inline(always)]
     pub(in crate::shadow) fn hit(&self, origin: DVec3, corners: &[Vec3; 3]) -> Option<f64> {
         let [a, b, c] = corners;
@@ -88,7 +89,8 @@ impl Shear {
         (distance > 0.0).then_some(distance)
     }
 
-    /// A corner from a ray's origin: right and up where the ray is an axis, and how many lengths of the direction ahead.
+    /// A corner relative to a ray's origin: right and up in the sheared frame, and how many lengths of the direction
+    /// ahead.
     #[inline(always)]
     fn seen(&self, origin: DVec3, corner: &Vec3) -> [f64; 3] {
         let [right, up, forward] = self.axes;

@@ -1,9 +1,9 @@
-//! The tree: boxes in eights above triangles in eights.
+//! The tree: nodes of eight boxes above blocks of eight triangles.
 //!
-//! Built from above by the surface area heuristic over bins (Wald, *On fast Construction of SAH-based Bounding Volume
+//! Built from the top by the binned surface area heuristic (Wald, *On fast Construction of SAH-based Bounding Volume
 //! Hierarchies*, 2007), eight parts at once: as long as there is room in a node, its largest part is divided. The crate
-//! obvhs builds a tree of quantised boxes in three times the time, one triangle after the other has to be fetched from it,
-//! and the order of its equal hits is its own.
+//! obvhs takes three times as long to build a tree of quantised boxes, returns triangles only one by one, and orders
+//! equal hits differently.
 
 use crate::mesh::Mesh;
 use arrayvec::ArrayVec;
@@ -11,20 +11,20 @@ use glam::{Vec3, Vec3A};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// How many boxes a node has, and how many triangles a block.
+/// The number of boxes in a node, and of triangles in a block.
 pub(super) const EIGHT: usize = 8;
-/// From this depth on parts are halved by count, so that no tree is deeper than [`MOST_DEPTH`].
+/// From this depth on parts are halved by count, which limits the depth to [`MOST_DEPTH`].
 const DIVIDED_BY_AREA: usize = 16;
-/// Halved eight at a time, 2³² triangles are done eleven levels deeper.
+/// With eight parts at a time, 2³² triangles take eleven more levels.
 pub(super) const MOST_DEPTH: usize = DIVIDED_BY_AREA + 12;
-/// Parts of so many triangles at least are built side by side.
+/// Parts with at least this many triangles are built in parallel.
 const SIDE_BY_SIDE: usize = 1 << 14;
 const BINS: usize = 16;
 
-/// Eight boxes, and what is in them.
+/// Eight boxes with their contents.
 #[repr(C, align(32))]
 pub(super) struct WideNode {
-    /// The lowest x, y, z of each box, then the highest. A box that is not there ends before it begins.
+    /// The lowest x, y, z of each box, then the highest. An absent box ends before it begins.
     pub(super) planes: [[f32; EIGHT]; 6],
     pub(super) children: [u32; EIGHT],
 }
@@ -32,10 +32,10 @@ pub(super) struct WideNode {
 /// Up to eight triangles side by side.
 #[repr(C, align(32))]
 pub(super) struct TriangleBlock {
-    /// By corner, axis, and triangle.
+    /// By corner, axis and triangle.
     pub(super) corners: [[[f32; EIGHT]; 3]; 3],
     pub(super) faces: [u32; EIGHT],
-    /// A bit for each triangle that is there.
+    /// A bit for each triangle that is present.
     pub(super) there: u32,
 }
 
@@ -51,7 +51,7 @@ impl TriangleBlock {
     }
 }
 
-/// A child that is a block and no node.
+/// Marks a child as a block instead of a node.
 pub(super) const BLOCK: u32 = 1 << 31;
 
 /// Nodes, the root first, and blocks.
@@ -60,7 +60,6 @@ pub(super) struct WideTree {
     pub(super) blocks: Vec<TriangleBlock>,
 }
 
-/// A face and its box.
 #[derive(Clone, Copy)]
 struct FaceBox {
     low: Vec3A,
@@ -68,7 +67,6 @@ struct FaceBox {
     face: u32,
 }
 
-/// A box that grows.
 #[derive(Clone, Copy)]
 struct BoxExtent {
     low: Vec3A,
@@ -86,7 +84,7 @@ impl BoxExtent {
         boxed.iter().fold(BoxExtent::NOTHING, |extent, one| extent.with(one.low, one.high))
     }
 
-    /// Half of its surface, square metres; 0 for nothing.
+    /// Half of its surface area, square metres; 0 if it is empty.
     fn area(&self) -> f32 {
         let size = (self.high - self.low).max(Vec3A::ZERO);
         size.x * size.y + size.y * size.z + size.z * size.x
@@ -94,7 +92,7 @@ impl BoxExtent {
 }
 
 impl WideTree {
-    /// Boxes are larger than their faces by so many metres on each side.
+    /// Builds the tree. Boxes are larger than their faces by `padding` metres on each side.
     pub(super) fn new(mesh: &Mesh, padding: f32) -> WideTree {
         let boxed = |face: usize| {
             let [a, b, c] = mesh.corners(face).map(Vec3A::from);
@@ -124,7 +122,7 @@ fn block(mesh: &Mesh, faces: &[FaceBox]) -> TriangleBlock {
     block
 }
 
-/// A tree that grows, and which of the sorted faces its blocks hold.
+/// A tree during construction, with the ranges of sorted faces in its blocks.
 #[derive(Default)]
 struct GrowingTree {
     padding: f32,
@@ -133,7 +131,7 @@ struct GrowingTree {
 }
 
 impl GrowingTree {
-    /// Adds a node for some faces, the first of which is given, and everything below it. Returns where it is.
+    /// Adds a node for some faces, from index `first` on, with everything below it. Returns its index.
     fn node(&mut self, faces: &mut [FaceBox], first: usize, depth: usize) -> u32 {
         let at = self.nodes.len();
         let mut node = WideNode { planes: [[f32::INFINITY; EIGHT]; 6], children: [0; EIGHT] };
@@ -164,7 +162,7 @@ impl GrowingTree {
         at as u32
     }
 
-    /// Adds a part: a block where it fits one.
+    /// Adds a part, as a block if it fits in one.
     fn child(&mut self, FacePart { faces, first, .. }: FacePart<'_>, depth: usize) -> u32 {
         if faces.len() > EIGHT {
             return self.node(faces, first, depth);
@@ -173,7 +171,7 @@ impl GrowingTree {
         (self.blocks.len() - 1) as u32 | BLOCK
     }
 
-    /// Takes over what was grown apart. Returns where its root is now.
+    /// Appends a tree that was built in parallel. Returns the new index of its root.
     fn append(&mut self, mut other: GrowingTree, root: u32) -> u32 {
         let (nodes, blocks) = (self.nodes.len() as u32, self.blocks.len() as u32);
         let moved = |child: u32| child + if child & BLOCK != 0 { blocks } else { nodes };
@@ -186,7 +184,7 @@ impl GrowingTree {
     }
 }
 
-/// Some faces, the number of the first one, and the box around all.
+/// A part of the faces: its faces, the index of the first, and its box.
 struct FacePart<'a> {
     extent: BoxExtent,
     first: usize,
@@ -198,7 +196,7 @@ impl FacePart<'_> {
         FacePart { extent: BoxExtent::of(faces), first, faces }
     }
 
-    /// How much is won by dividing it; nothing where it fits half a block, which is not worth another box.
+    /// The benefit of dividing it; 0 if it fits half a block, which is not worth another box.
     fn weight(&self) -> f32 {
         if self.faces.len() > EIGHT / 2 { self.extent.area() } else { -1.0 }
     }
@@ -221,12 +219,12 @@ fn divided(faces: &mut [FaceBox], first: usize, depth: usize) -> ArrayVec<FacePa
     parts
 }
 
-/// Sorts faces so that dividing them at the place that is returned makes rays cheapest; none where all lie in one place.
+/// Sorts faces for the cheapest division. Returns its index; `None` if all are at one place.
 fn by_area(faces: &mut [FaceBox]) -> Option<usize> {
     let centre = |boxed: &FaceBox| boxed.low + boxed.high;
     let centres = faces.iter().fold(BoxExtent::NOTHING, |extent, boxed| extent.with(centre(boxed), centre(boxed)));
     let size = centres.high - centres.low;
-    // the longest axis alone: the two others cost three times as much and gain nothing that rays notice
+    // only the longest axis: the two others take three times as long without a noticeable gain
     let axis = size.max_position();
     let per_metre = BINS as f32 * 0.999 / size[axis];
     let bin = |boxed: &FaceBox| (((centre(boxed)[axis] - centres.low[axis]) * per_metre) as usize).min(BINS - 1);
@@ -240,7 +238,7 @@ fn by_area(faces: &mut [FaceBox]) -> Option<usize> {
     Some(partition(faces, |boxed| bin(boxed) < first))
 }
 
-/// The bin at which the upper part begins; none where all is in one.
+/// The bin at which the upper part begins; `None` if all are in one.
 fn cheapest(bins: &[(BoxExtent, u32); BINS]) -> Option<usize> {
     let mut above = [(0.0, 0); BINS];
     let mut so_far = (BoxExtent::NOTHING, 0);
@@ -262,7 +260,7 @@ fn cheapest(bins: &[(BoxExtent, u32); BINS]) -> Option<usize> {
     best.map(|(at, _)| at)
 }
 
-/// Brings those that are asked for to the front, and returns how many there are.
+/// Moves the selected ones to the front, and returns their number.
 fn partition(faces: &mut [FaceBox], first: impl Fn(&FaceBox) -> bool) -> usize {
     let (mut from, mut to) = (0, faces.len());
     loop {

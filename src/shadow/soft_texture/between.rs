@@ -1,4 +1,5 @@
-//! When texels change between two instants: by halving, with a ray a texel and moment, from where the neighbour changed.
+//! Finds when texels change between two instants: bisects with one ray per texel and moment, starting at the
+//! neighbour's change.
 
 use super::query::raster;
 use super::{PatchJudge, PatchJudgements, SoftTexture, count, work_of};
@@ -10,25 +11,25 @@ use crate::shadow::soft_texture::Sample;
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// A moment between two instants, or one of them.
+/// An instant, or a moment between two instants.
 #[derive(Debug)]
 pub struct Moment {
-    /// Where the sun's centre stands.
+    /// The direction to the sun's centre.
     pub to_sun: DVec3,
-    /// Seconds since the first instant for which the first one's light counts where it changes after this moment, and before
-    /// the next; of the last one all seconds.
+    /// The seconds since the first instant for which a texel is as it was then, if it changes after this moment and
+    /// before the next; for the last moment, all seconds.
     pub secs_before_change: u32,
 }
 
 /// The rays of a patch to the sun at one moment.
 struct PatchRays {
-    /// From a texel's point to where it is judged.
+    /// The offset from a texel's centre to where it is judged.
     lift: DVec3,
     shear: Shear,
 }
 
 impl SoftTexture {
-    /// Per texel 1 where it sees the sun's centre, else 0.
+    /// Returns 1 for each texel that sees the sun's centre, otherwise 0.
     ///
     /// # Errors
     /// [`ShadowError::Gpu`]
@@ -38,7 +39,7 @@ impl SoftTexture {
         Ok(seen.into_par_iter().map(|seen| seen as u8).collect())
     }
 
-    /// Adds so many seconds to the texels that have seen the sun.
+    /// Adds seconds to the texels that have seen the sun.
     pub fn add_seen(&mut self, seen: &[u8], secs: u32) {
         self.sums
             .par_iter_mut()
@@ -47,8 +48,8 @@ impl SoftTexture {
             .for_each(|(sum, seen)| *sum += u32::from(*seen) * secs);
     }
 
-    /// Adds the seconds between two instants: all of them to texels that see the sun at both, and to those that see it at one
-    /// of them the part that they are found to. The moments begin and end with the instants.
+    /// Adds the seconds between two instants: all of them to texels that see the sun at both, and the part that the
+    /// search finds to those that see it at one. The moments include the two instants.
     pub fn add_between(&mut self, [before, after]: [&[u8]; 2], moments: &[Moment]) {
         let [_, .., last] = moments else { return };
         let all_secs = last.secs_before_change;
@@ -87,20 +88,20 @@ struct TexelSearch<'a> {
     judge: &'a PatchJudge<'a>,
     patch: &'a Patch,
     moments: &'a [Moment],
-    /// Per moment, once a texel asks: none where the patch looks away from the sun.
+    /// For each moment, its rays once a texel needs them; `None` if the patch faces away from the sun.
     rays: Vec<Option<Option<PatchRays>>>,
-    /// After which moment the last texel changed, and how many moments later than the one before it.
+    /// The moment after which the last texel changed, and its distance in moments from the one before it.
     last: usize,
     shift: isize,
     cast: u64,
 }
 
 impl TexelSearch<'_> {
-    /// For how many seconds a texel that sees the sun at one end alone is as it was at the first.
+    /// The seconds for which a texel that sees the sun at one end only is as it was at the first.
     fn secs_before_change(&mut self, texel: usize, is_lit_before: bool) -> u32 {
         let (mut from, mut to) = (0, self.moments.len() - 1);
-        // where a shadow that goes on as evenly over the texels comes by, then ever farther from there, until the change is
-        // between two moments
+        // starts where a shadow that moves evenly over the texels would be, then goes ever farther from there, until
+        // the change is between two moments
         let guess = self.last.saturating_add_signed(self.shift);
         let (mut next, mut stride) = (guess.clamp(1, to.saturating_sub(1).max(1)), 1);
         while to - from > 1 {

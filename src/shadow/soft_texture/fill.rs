@@ -2,11 +2,10 @@
 //!
 //! - [`Fill::Faces`] fills every face, one bit per cell: the plain twin.
 //! - [`Fill::Silhouettes`] is the edge-flag fill (section 4.3.1 of M. Herf's paper, after Ackland and Weste, 1981) of
-//!   silhouettes (4.3.3). In every row each edge marks the cell at which the layers of its faces begin or end; a
-//!   running sum over the row is then the number of layers before each cell. An edge counts as often as the directions
-//!   of its faces do not cancel: ±2 between two faces of one side, ±1 at a border, 0 inside. The paper lists events by
-//!   light in each cell; we add one sample's events at once, so that an event is a number and nothing has to be
-//!   allocated.
+//!   silhouettes (4.3.3). In every row each edge marks the cell at which the layers of its faces begin or end; a running
+//!   sum over the row then gives the number of layers before each cell. An edge counts by the sum of its faces'
+//!   directions: ±2 between two faces of one side, ±1 at a border, 0 inside. The paper stores events by light in each
+//!   cell; we add one sample's events at once, so that an event is a number and needs no allocation.
 //!
 //! Both cut faces at the judged plane in the same way. A face that is cut marks its own border, the section included;
 //! where it meets a face that is not cut, their marks fall into the same cells and cancel in the sum.
@@ -17,7 +16,7 @@ use crate::mesh::scan::{Coverage, TriangleSide};
 use crate::shadow::registered::{self, ClippedFace, ProjectedVertex, RasterProjection};
 use glam::DVec2;
 
-/// How the processor fills hard shadows; both find the same.
+/// How the processor fills hard shadows; the results are the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fill {
     /// Every face.
@@ -26,7 +25,7 @@ pub enum Fill {
     Silhouettes,
 }
 
-/// The sides of each face: twice the edge, and 1 where the face runs against it.
+/// The sides of each face: twice the edge's index, plus 1 if the face runs against it.
 pub(super) fn face_sides(mesh: &Mesh) -> Vec<[u32; 3]> {
     let mut sides = vec![[u32::MAX; 3]; mesh.faces.len()];
     for edge in 0..mesh.edges.len() {
@@ -40,17 +39,17 @@ pub(super) fn face_sides(mesh: &Mesh) -> Vec<[u32; 3]> {
     sides
 }
 
-/// What filling needs and nobody keeps.
+/// Buffers for filling, which are reused.
 #[derive(Default)]
 pub(super) struct Scratch {
     pub(super) waiting: Vec<u32>,
     /// The last sample's occluders.
     pub(super) found: Vec<u32>,
-    /// Per edge of the mesh the sum of its faces' directions; all zero between patches.
+    /// For each edge of the mesh, the sum of its faces' directions; all 0 between patches.
     multiplicity: Vec<i32>,
-    /// Edges whose sum was touched.
+    /// The edges whose sums were changed.
     touched: Vec<u32>,
-    /// Events, row by row, one cell more than the patch is wide.
+    /// Events, row by row, with one cell more than the patch's columns.
     events: Vec<i32>,
 }
 
@@ -61,10 +60,10 @@ impl Scratch {
     }
 }
 
-/// Which cells something lies before.
+/// The covered cells of a patch.
 pub(super) enum CoveredCells<'a> {
     Bits(Coverage),
-    /// The layers, row by row; a row has one number more than the patch has columns.
+    /// The number of layers, row by row; a row has one number more than the patch has columns.
     Layers(&'a [i32], usize),
 }
 
@@ -77,7 +76,7 @@ impl CoveredCells<'_> {
     }
 }
 
-/// What casts, as filling needs it.
+/// The casters, as filling needs them.
 pub(super) struct Casting<'a> {
     pub(super) mesh: &'a Mesh,
     pub(super) sides: &'a [[u32; 3]],
@@ -85,7 +84,7 @@ pub(super) struct Casting<'a> {
 }
 
 impl Casting<'_> {
-    /// The shadow of the faces found onto a raster of so many columns and rows.
+    /// Fills the shadow of the faces in `scratch.found` on a raster of this size.
     pub(super) fn covered<'a>(
         &self,
         fill: Fill,
@@ -126,7 +125,7 @@ impl Casting<'_> {
                 continue;
             }
             let [a, b, c] = places.map(|place| place.at);
-            // towards the light or away from it: the sign of the area that is seen of it
+            // the sign of its visible area says whether the face is turned to the light
             let facing = if a.dot(b.cross(c)) < 0.0 { -1 } else { 1 };
             if registered::is_whole(&places) {
                 for side in self.sides[self.occluders.faces[at as usize] as usize] {
@@ -140,7 +139,7 @@ impl Casting<'_> {
             }
         }
         for edge in touched.drain(..) {
-            // an edge is touched by each of its faces
+            // an edge is visited once for each of its faces
             let sum = std::mem::take(&mut multiplicity[edge as usize]);
             if sum != 0 {
                 let [from, to] = self.mesh.edges[edge as usize].map(|vertex| {
@@ -177,11 +176,11 @@ impl Events<'_> {
         }
     }
 
-    /// Marks the rows that an edge crosses, whose faces run along it so often, with their insides at its left hand as
-    /// rows go down. What lies left of the raster is marked at its left border (section 4.3.1, clipping).
+    /// Marks the rows that an edge crosses, with the multiplicity `times`; the inside is on its left as rows go down.
+    /// Edges left of the raster are marked at its left border (section 4.3.1, clipping).
     fn mark(&mut self, from: DVec2, to: DVec2, times: i32) {
         let (top, bottom, times) = if from.y < to.y { (from, to, -times) } else { (to, from, times) };
-        // a row belongs to the edge whose upper end it meets
+        // a row belongs to the edge whose upper end it touches
         let first = top.y.ceil().max(0.0);
         let last = (bottom.y.ceil() - 1.0).min((self.height - 1) as f64);
         let is_crossed = first <= last && top.x.min(bottom.x) <= self.width as f64;

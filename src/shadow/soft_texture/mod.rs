@@ -1,4 +1,4 @@
-//! Registered soft shadow textures: which part of a light's samples every texel of a flat patch sees.
+//! Registered soft shadow textures: which of a light's samples every texel of a flat patch sees.
 //!
 //! M. Herf, *Efficient Generation of Soft Shadow Textures*, CMU-CS-97-138, 1997. For each patch and each sample the
 //! faces between them are projected onto the patch's own texels ([`crate::shadow::registered`]) and filled. All
@@ -6,13 +6,12 @@
 //! shadow at an instant; or the instants of a study, which give hours of sun on a façade; or points of a lamp. The code
 //! is the same.
 //!
-//! What we changed: sums are integers with a weight for each sample; faces are culled for each patch by a tree of
-//! boxes; a patch is judged a millimetre above itself, so that it never shades itself and gets no light through a wall
-//! that stands on it; the paper's factor of an unoccluded light (`unoccluded`, a hook for tests) is computed
-//! separately, and hours do not need it.
+//! What we changed: sums are integers with a weight for each sample; a tree of boxes culls faces for each patch; a
+//! patch is judged a millimetre above itself, so that it never shades itself and gets no light through a wall that
+//! stands on it; the paper's factor of an unoccluded light (`unoccluded`, a hook for tests) is computed separately, as
+//! hours do not need it.
 //!
-//! Where it fails: a texel has the value of its centre; and where patches are many and tiny, rays cost less
-//! ([`Choice::Auto`]).
+//! Where it fails: a texel has the value of its centre; and with many tiny patches, rays cost less ([`Choice::Auto`]).
 
 mod between;
 #[cfg(feature = "test-hooks")]
@@ -63,16 +62,16 @@ pub struct SoftTexture {
     rays: RayCaster,
     choice: Choice,
     fill: Fill,
-    /// Without it every face is filled for every patch, as in the paper.
+    /// Whether to cull; otherwise, every face is filled for every patch, as in the paper.
     culling: bool,
-    /// Per texel the weights of the samples it sees: those that the processor added.
+    /// For each texel the weights of the samples it sees, as far as the processor added them.
     sums: Vec<u32>,
     drawer: Option<AdapterDrawer>,
     counts: [AtomicU64; 4],
 }
 
 impl SoftTexture {
-    /// For the casting faces of a mesh, whose origin is that of the patches.
+    /// Prepares the technique for the casting faces of a mesh, whose origin must be that of the patches.
     ///
     /// # Errors
     /// [`ShadowError::Gpu`]
@@ -127,11 +126,11 @@ impl SoftTexture {
         added
     }
 
-    /// The same, to the processor's sums.
+    /// The same, for the processor's sums.
     fn add_to(&self, samples: &[Sample], sums: &mut [u32]) -> Result<(), ShadowError> {
         let judge = self.judge();
         let drawer = self.drawer.as_ref();
-        // those that the adapter leaves to rays
+        // what the adapter leaves to rays
         let mut left = vec![Vec::new(); if drawer.is_some() { samples.len() } else { 0 }];
         if let Some(drawer) = drawer {
             for (sample, left) in samples.iter().zip(&mut left) {
@@ -156,7 +155,7 @@ impl SoftTexture {
         Ok(())
     }
 
-    /// What judges patches.
+    /// The processor's judge of patches.
     fn judge(&self) -> PatchJudge<'_> {
         let SoftTexture { casters, patches, sides, occluders, rays, choice, fill, culling, counts, .. } = self;
         let sought = OccluderQuery { patches, occluders, culling: *culling, choice: *choice };
@@ -169,12 +168,12 @@ impl SoftTexture {
         self.drawer.is_some()
     }
 
-    /// Goes on from sums that were added before: per texel, as [`SoftTexture::so_far`] has them.
+    /// Continues from earlier sums: one for each texel, as [`SoftTexture::so_far`] returns them.
     pub fn begin_with(&mut self, sums: &[u32]) {
         self.sums.copy_from_slice(sums);
     }
 
-    /// How the patches were judged so far.
+    /// How patches were judged so far.
     pub fn judged(&self) -> PatchJudgements {
         let [textures, texture_texels, faces, rays] = [0, 1, 2, 3].map(|at| self.counts[at].load(Ordering::Relaxed));
         PatchJudgements { textures, texture_texels, faces, rays }
@@ -202,7 +201,7 @@ impl SoftTexture {
         self.added_to(sums)
     }
 
-    /// The processor's sums and those of the adapter.
+    /// The processor's sums plus those of the adapter.
     fn added_to(&self, mut sums: Vec<u32>) -> Result<Vec<u32>, ShadowError> {
         if let Some(drawer) = &self.drawer {
             for (sum, drawn) in sums.iter_mut().zip(drawer.sums()?) {
@@ -213,7 +212,7 @@ impl SoftTexture {
     }
 }
 
-/// The patches, each with its number and its texels' sums.
+/// The patches, each with its index and its texels' sums.
 fn work_of<'a>(patches: &'a Patches, sums: &'a mut [u32]) -> Vec<(u32, &'a Patch, &'a mut [u32])> {
     let mut rest = sums;
     let mut work = Vec::with_capacity(patches.list.len());
@@ -232,10 +231,10 @@ fn count(counts: &[AtomicU64; 4], judged: PatchJudgements) {
     }
 }
 
-/// Texels of a patch that rays are cast from at once. They lie in a row, so that more would make a long and wide beam.
+/// The texels of a patch for one beam. They are in a row, so more would make a long and wide beam.
 const STRIP: usize = 16;
 
-/// What judges patches on the processor.
+/// Judges patches on the processor.
 struct PatchJudge<'a> {
     sought: OccluderQuery<'a>,
     rays: &'a RayCaster,
@@ -276,8 +275,8 @@ impl PatchJudge<'_> {
         &self.sought.patches.texels[patch.texels.start as usize..patch.texels.end as usize]
     }
 
-    /// From a texel's point to where it is judged, along the patch: as where textures are filled; a point that stands alone
-    /// is judged where it is.
+    /// The offset from a texel's centre to where it is judged, along the patch, as in filled textures; none for a patch
+    /// with a single point.
     fn tie(&self, patch: &Patch, raster: &Raster) -> DVec3 {
         let tie = (raster.right * TIE.x - raster.down * TIE.y) * raster.cell;
         if patch.alone.is_some() { DVec3::ZERO } else { tie }

@@ -1,7 +1,7 @@
-//! What stands between a patch and a light: the faces that a tree of boxes does not rule out.
+//! Finds the faces that may be between a patch and a light, by culling with a tree of boxes.
 //!
-//! The paper (sections 4.4.1 and 5.5) names this culling as missing. A box is ruled out if it lies wholly beyond one
-//! side of the pyramid, or of the sun's prism, between the patch's outermost centres and the light; in registered
+//! The paper (sections 4.4.1 and 5.5) mentions that this culling is missing. A box is culled if it is wholly outside of
+//! one side of the pyramid, or of the sun's prism, between the patch's outermost centres and the light; in registered
 //! coordinates each side is one linear form.
 
 use crate::mesh::Mesh;
@@ -14,15 +14,15 @@ use obvhs::bvh2::builder::build_bvh2;
 use rayon::prelude::*;
 use std::time::Duration;
 
-/// The faces of a mesh under a tree of boxes, in the tree's order, in which they lie beside each other.
+/// The faces of a mesh with a tree of boxes, in the tree's order, in which neighbours are close together.
 pub(super) struct Occluders {
     tree: Option<Bvh2>,
-    /// Which face of the mesh each is.
+    /// The mesh's face index of each.
     pub(super) faces: Vec<u32>,
     pub(super) corners: Vec<[Vec3; 3]>,
 }
 
-/// Linear forms that are above 0 in what matters: the sides of the pyramid.
+/// Linear forms that are positive inside: the sides of the pyramid.
 struct Sides([DVec4; 6]);
 
 impl Sides {
@@ -41,7 +41,7 @@ impl Sides {
     fn rule_out(&self, bounds: &Aabb) -> bool {
         let middle = (bounds.min + bounds.max).as_dvec3() / 2.0;
         let reach: DVec3 = (bounds.max - bounds.min).as_dvec3() / 2.0;
-        // f32 rounds the middle and the reach
+        // f32 rounds the middle and the extent
         let slack = 1e-6 * (middle.abs().max_element() + reach.max_element());
         self.0.iter().any(|form| {
             let normal = form.truncate();
@@ -63,8 +63,8 @@ impl Occluders {
         Occluders { tree, corners: faces.iter().map(|&face| mesh.corners(face as usize)).collect(), faces }
     }
 
-    /// Finds the places in the tree's order of every face that may lie between the light and the patch (without culling,
-    /// of all there are); false as soon as they are more than `most`.
+    /// Finds the indices, in the tree's order, of every face that may be between the light and the patch (without
+    /// culling, of all faces). Returns `false` as soon as there are more than `most`.
     pub(super) fn before(
         &self,
         onto: &RasterProjection,

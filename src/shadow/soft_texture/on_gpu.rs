@@ -1,5 +1,5 @@
 //! Hard shadows filled by the graphics adapter. Each patch is a viewport in its page, into which its occluders are
-//! drawn; then every judged texel of the page that nothing covers gets the sample's weight, in integers.
+//! drawn; then every judged texel of the page that is not covered gets the sample's weight, in integers.
 //!
 //! One mask is used for all pages. For each sample the matrices of its patches and the lists of their occluders go to
 //! the adapter; nothing is read back before the end.
@@ -20,11 +20,11 @@ use std::ops::Range;
 use std::sync::Arc;
 use wgpu::*;
 
-/// Corners of faces that are uploaded at once.
+/// The number of faces' corners that are uploaded at once.
 const INDICES_AT_ONCE: usize = 3 << 19;
-/// Patches whose occluders are sought before they are drawn.
+/// The number of patches whose occluders are found before they are drawn.
 const PATCHES_AT_ONCE: usize = 1 << 12;
-/// Depth a metre above the plane: nothing that stands within the adapter's reach is cut off above.
+/// The depth per metre above the plane: small enough that nothing within the adapter's range is clipped.
 const DEPTH_A_METRE: f64 = 1e-7;
 
 /// `Onto` of the shader: a vertex buffer, one for each patch.
@@ -32,13 +32,13 @@ const DEPTH_A_METRE: f64 = 1e-7;
 #[derive(Clone, Copy, Pod, Zeroable)]
 struct Onto([[f32; 4]; 4]);
 
-/// The adapter's side of the technique.
+/// The adapter's part of the technique.
 pub(super) struct AdapterDrawer {
     gpu: Arc<Gpu>,
-    /// Patches that are drawn, page after page.
+    /// The patches that are drawn, page by page.
     drawn: Vec<u32>,
     pages: Vec<Page>,
-    /// Of the patches' texels, those of the drawn patches, in their order.
+    /// The texel ranges of the drawn patches, in their order.
     texels: Vec<Range<u32>>,
     mask: Texture,
     vertices: Buffer,
@@ -51,11 +51,11 @@ pub(super) struct AdapterDrawer {
     bytes: u64,
 }
 
-/// What of the atlas lies in one page.
+/// The part of the atlas in one page.
 struct Page {
-    /// Of the drawn patches.
+    /// A range of the drawn patches.
     patches: Range<usize>,
-    /// Of the texels on the adapter.
+    /// A range of the texels on the adapter.
     texels: Range<u32>,
     group: BindGroup,
 }
@@ -64,12 +64,12 @@ struct Page {
 struct PatchOccluders {
     onto: Onto,
     indices: Vec<u32>,
-    /// Faces that culling left.
+    /// The number of faces after culling.
     found: usize,
 }
 
 impl Page {
-    /// `buffers` are the texels' places and patches, the patches' weights, and the texels' sums.
+    /// `buffers` are the texels' positions and patches, the patches' weights, and the texels' sums.
     fn new(gpu: &Gpu, add: &ComputePipeline, mask: &Texture, run: PageRun, buffers: [&Buffer; 4]) -> Page {
         let (patches, texels) = run;
         let run = gpu.uniform::<TexelRunUniforms>("soft_texture.run");
@@ -87,15 +87,15 @@ impl Page {
 /// The drawn patches of one page, and their texels on the adapter.
 type PageRun = (Range<usize>, Range<u32>);
 
-/// The patches that are drawn, page after page, and what the adapter knows of them.
+/// The patches that are drawn, page by page, and their data for the adapter.
 #[derive(Default)]
 struct DrawnPatches {
     list: Vec<u32>,
-    /// Of the patches' texels, those of each.
+    /// The texel range of each.
     texels: Vec<Range<u32>>,
-    /// Where each of these texels lies in its page: its column, and above that its row.
+    /// The position of each of these texels in its page: its column, and in the upper bits its row.
     places: Vec<u32>,
-    /// Which of the list each is of.
+    /// The index of each texel's patch in the list.
     patch_of: Vec<u32>,
     runs: Vec<PageRun>,
 }
@@ -184,7 +184,7 @@ impl AdapterDrawer {
         self.bytes
     }
 
-    /// Adds a sample to all drawn patches. Returns those that are left to rays, in their order.
+    /// Adds a sample to all drawn patches. Returns those that are left to rays, in order.
     pub(super) fn add(
         &self,
         sought: &OccluderQuery<'_>,
@@ -204,7 +204,7 @@ impl AdapterDrawer {
                     if !sought.find(patch, &onto, waiting, found) {
                         return Some(Err(self.drawn[slot]));
                     }
-                    // the adapter's single precision must not decide on what lies in the patch itself
+                    // the adapter's single precision must not decide on faces in the patch itself
                     let above = |corner: Vec3| onto.height.dot(corner.as_dvec3().extend(1.0)) > 0.0;
                     let Occluders { corners, faces, .. } = sought.occluders;
                     let drawn = found.iter().filter(|at| corners[**at as usize].into_iter().any(above));
@@ -238,7 +238,7 @@ impl AdapterDrawer {
         Ok((judged, left))
     }
 
-    /// Gives its weight to every texel of a page that nothing covers.
+    /// Adds the weight to every texel of a page that is not covered.
     fn count(&self, page: &Page) {
         let mut encoder = self.gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
         let described = ComputePassDescriptor { label: Some("soft_texture.add"), timestamp_writes: None };
@@ -250,7 +250,7 @@ impl AdapterDrawer {
         self.gpu.queue.submit([encoder.finish()]);
     }
 
-    /// The sums of all texels of the patches; 0 in those that are not drawn.
+    /// The sums of all texels of the patches; 0 for those that are not drawn.
     pub(super) fn sums(&self) -> Result<Vec<u32>, ShadowError> {
         let drawn: Vec<u32> = readback::values(&self.gpu, &self.sums)?;
         let count = self.texels.iter().map(|texels| texels.end).max().unwrap_or(0);
@@ -265,7 +265,7 @@ impl AdapterDrawer {
     }
 }
 
-/// What waits to be drawn into a page.
+/// The draws for a page.
 struct Canvas<'a> {
     drawer: &'a AdapterDrawer,
     patches: &'a Patches,
@@ -325,11 +325,11 @@ impl Canvas<'_> {
     }
 }
 
-/// The projection in the viewport of a patch: −1 to 1, upwards.
+/// The projection in the viewport of a patch: −1 to 1, with y up.
 fn in_viewport(onto: &RasterProjection, (width, height): (u32, u32), light: DVec4) -> Onto {
     let across = (onto.column + onto.w * 0.5) * (2.0 / f64::from(width)) - onto.w;
     let up = onto.w - (onto.row + onto.w * 0.5) * (2.0 / f64::from(height));
-    // depth runs from 0 in the plane to w just below a lamp
+    // depth is from 0 in the plane to w just below a lamp
     let front = onto.height.dot(light);
     let depth = if light.w == 0.0 { DEPTH_A_METRE } else { DEPTH_A_METRE.min(LEAST_W / front) };
     Onto([across, up, onto.w, onto.height * depth].map(|form| form.as_vec4().to_array()))

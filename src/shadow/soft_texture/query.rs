@@ -1,4 +1,4 @@
-//! The request for one patch: its samples, how it is judged, and what stands in front of it.
+//! The request for one patch: its samples, how it is judged, and what is in front of it.
 
 use super::occluders::Occluders;
 use crate::mesh::patches::{Patch, Patches};
@@ -44,14 +44,14 @@ pub struct PatchJudgements {
 /// otherwise rays cost less. Measured in `docs/benchmarks/receivers.md`.
 pub const MOST_FACES_A_TEXEL: usize = 2;
 
-/// With [`Choice::Auto`] patches of fewer texels are left to rays at once: to search for what stands before them costs more.
-/// Measured there, too.
+/// With [`Choice::Auto`], patches with fewer texels are always judged by rays, since searching for occluders costs
+/// more. Measured there, too.
 const FEWEST_FILLED: usize = 32;
 
-/// With [`Choice::Auto`] patches of fewer texels are not worth a draw call of the adapter.
+/// With [`Choice::Auto`], patches with fewer texels are not worth a draw call of the adapter.
 pub const FEWEST_DRAWN: usize = 256;
 
-/// Whether the adapter draws a patch, unless too much stands before it.
+/// Whether the adapter draws a patch, unless there are too many occluders.
 pub(super) fn is_drawn(patch: &Patch, choice: Choice) -> bool {
     let worth_it = match choice {
         Choice::Texture => true,
@@ -70,7 +70,7 @@ pub(super) struct OccluderQuery<'a> {
 }
 
 impl OccluderQuery<'_> {
-    /// Finds what stands between a patch and a light; false where rays are to be cast instead.
+    /// Finds the occluders between a patch and a light; `false` if rays should be cast instead.
     pub(super) fn find(
         &self,
         patch: &Patch,
@@ -89,7 +89,8 @@ impl OccluderQuery<'_> {
     }
 }
 
-/// The raster of a patch, a millimetre above the side that faces the light; none where that is edge-on or behind.
+/// The raster of a patch, a millimetre above the side that faces the light; `None` if the light is edge-on or behind
+/// it.
 pub(super) fn raster(patch: &Patch, cell: f64, light: DVec4) -> Option<Raster> {
     let mut plane = patch.plane;
     if patch.two_sided && plane.dot(light) < 0.0 {

@@ -2,10 +2,10 @@
 //! draw, and nothing is read back.
 //!
 //! The twin of [`crate::silhouette::brute_force`]. (Akenine-Möller, Haines and Hoffman, *Real-Time Rendering*, 3rd
-//! edition, 2008, section 9.1, extract in the vertex shader, since there were no compute passes:
-//! `Silhouettes::InVertexShader`, with which tests and benches compare. Here only silhouette edges become vertices.)
-//! Facing is a bit of `super::faces`. Edges come in runs, each so short that its buffers fit the adapter's bindings
-//! however many of its edges are part of the silhouette.
+//! edition, 2008, section 9.1, extract silhouettes in the vertex shader, since there were no compute passes:
+//! `Silhouettes::InVertexShader`, for comparison in tests and benches. Here only silhouette edges become vertices.)
+//! Facing is a bit from `super::faces`. Edges are split into runs, so short that their buffers fit the adapter's
+//! bindings even if all of their edges are silhouette.
 
 use super::faces::{self, Faces, GROUP};
 use super::query::{NO_FACE, WallQuery, Walls, along, packed};
@@ -19,11 +19,11 @@ use wgpu::{
 /// Flags an edge with more than two faces (`CROWDED` of `shaders/extraction.wgsl`).
 const CROWDED: u32 = 1 << 31;
 
-/// Before an edge is asked.
+/// The draw arguments before edges are added.
 const NOTHING_DRAWN: layout::DrawArguments =
     layout::DrawArguments { index_count: 0, instance_count: 1, first_index: 0, base_vertex: 0, first_instance: 0 };
 
-/// The pipelines, which all meshes share.
+/// The pipelines, shared by all meshes.
 pub struct ExtractionProgram {
     pub(super) faces: Arc<faces::FacingProgram>,
     extract: ComputePipeline,
@@ -53,22 +53,22 @@ pub struct Extraction {
 struct EdgeRun {
     count: u32,
     edges: Buffer,
-    /// Faces at crowded edges.
+    /// The faces at crowded edges.
     crowds: Buffer,
-    /// How many faces all edges have together: the most walls that can hang there.
+    /// The total number of faces at the edges: the most walls that there can be.
     most_walls: u64,
     arguments: Buffer,
-    /// Made when first sought, and again where more is sought.
+    /// Made when first needed, and replaced if it becomes too small.
     list: Option<WallList>,
 }
 
-/// Where a run's walls are written.
+/// The buffer for a run's walls.
 struct WallList {
     indices: Buffer,
     bound: BindGroup,
 }
 
-/// A run on its way to the GPU.
+/// A run before it is uploaded.
 #[derive(Default)]
 struct EdgeRunData {
     edges: Vec<layout::EdgeRecord>,
@@ -93,7 +93,7 @@ impl EdgeRunData {
         self.most_walls += faces.len() as u64;
     }
 
-    /// Whether the next edge, which so many faces share, still fits into buffers of `most` bytes.
+    /// Whether an edge with this many faces still fits into buffers of `most` bytes.
     fn has_room(&self, faces: usize, most: u64) -> bool {
         let edges = (self.edges.len() as u64 + 1) * size_of::<layout::EdgeRecord>() as u64;
         let crowds = (self.crowds.len() + faces) as u64 * 4;
@@ -163,7 +163,7 @@ impl Extraction {
 }
 
 impl EdgeRun {
-    /// Makes the list as long as it can become.
+    /// Makes the list as long as it may need to be.
     fn make_list(&mut self, extraction: &Extraction, sought: &WallQuery) -> Result<(), GpuError> {
         let gpu = &extraction.gpu;
         let most_walls = self.most_walls >> u32::from(sought.halved);

@@ -1,4 +1,5 @@
-//! Faces on the GPU: one bit per face says whether it is turned to the light, and the light cap is drawn by those bits.
+//! Faces on the GPU: one bit per face says whether it is turned to the light; these bits orient the faces of the light
+//! cap.
 
 use super::WallQuery;
 use crate::gpu::targets::whole;
@@ -11,10 +12,10 @@ use wgpu::{
     IndexFormat, RenderPass,
 };
 
-/// The group of all bindings, beside those of the view.
+/// The group of all bindings besides those of the view.
 pub(super) const GROUP: u32 = 2;
 
-/// What all meshes' faces share.
+/// The pipelines, shared by all meshes.
 pub(super) struct FacingProgram {
     pub(in crate::shadow) gpu: Arc<Gpu>,
     decide: ComputePipeline,
@@ -32,23 +33,23 @@ impl FacingProgram {
     }
 }
 
-/// The faces of one mesh.
+/// The faces of one mesh on the GPU.
 pub(super) struct Faces {
     program: Arc<FacingProgram>,
     /// The most bytes of a buffer.
     most: u64,
     count: u32,
-    /// What is sought, a [`layout::SearchUniforms`].
+    /// The request, as [`layout::SearchUniforms`].
     pub(super) search: Buffer,
     /// One bit a face.
     pub(super) facing: Buffer,
     decide: BindGroup,
-    /// Made when first sought.
+    /// Made when first needed.
     cap: Vec<CapRun>,
     cap_is_sought: bool,
 }
 
-/// A run of the cap whose buffers are small enough.
+/// A part of the cap whose buffers are small enough.
 struct CapRun {
     count: u32,
     indices: Buffer,
@@ -83,7 +84,7 @@ impl Faces {
         })
     }
 
-    /// Decides facing, and turns the cap where it is sought.
+    /// Computes facing, and orients the cap if it is needed.
     pub(super) fn find(
         &mut self,
         mesh: &Mesh,
@@ -151,7 +152,7 @@ impl Faces {
         }
     }
 
-    /// The cap's runs: their buffers, and how many indices each holds.
+    /// The cap's runs: their buffers, with the number of indices in each.
     #[cfg(feature = "test-hooks")]
     pub(super) fn cap(&self) -> impl Iterator<Item = (&Buffer, u32)> {
         self.cap.iter().map(|run| (&run.indices, run.count * 3))

@@ -1,5 +1,5 @@
-//! The walls of shadow volumes: found on the processor and uploaded, extracted on the GPU, or decided vertex by vertex.
-//! All three ways give the same walls.
+//! The walls of shadow volumes: found on the processor and uploaded, extracted on the GPU, or computed in the vertex
+//! shader. All three give the same walls.
 
 pub mod borders;
 pub mod extraction;
@@ -28,8 +28,8 @@ pub enum Silhouettes {
     OnProcessor(ProcessorFinder),
     /// A compute pass over all edges.
     OnGpu,
-    /// The vertex shader, for each edge of the mesh. The older way (*Real-Time Rendering*, 3rd edition,
-    /// section 9.1), for comparison.
+    /// The vertex shader, for each edge of the mesh: the older method (*Real-Time Rendering*, 3rd edition, section
+    /// 9.1), for comparison.
     #[cfg(feature = "test-hooks")]
     InVertexShader,
 }
@@ -40,7 +40,7 @@ impl From<ProcessorFinder> for Silhouettes {
     }
 }
 
-/// Makes walls for meshes, in the way that was chosen.
+/// Makes walls for meshes by the chosen method.
 pub(super) enum WallMaker {
     OnProcessor(Arc<Gpu>, ProcessorFinder),
     OnGpu(extraction::ExtractionProgram),
@@ -67,7 +67,7 @@ impl WallMaker {
         })
     }
 
-    /// Where the vertex shader decides the edges: its module, and the layout of what it reads of them.
+    /// If the vertex shader finds the edges: its module, and the layout of its edge data.
     pub(super) fn in_vertex_shader(&self) -> Option<(&ShaderModule, &BindGroupLayout)> {
         match self {
             #[cfg(feature = "test-hooks")]

@@ -1,10 +1,9 @@
-//! Silhouettes decided in the vertex shader: every edge is a quadrilateral, collapsed where it is not part of the
+//! Silhouettes computed in the vertex shader: every edge is a quadrilateral, which collapses if it is not part of the
 //! silhouette.
 //!
 //! Akenine-Möller, Haines and Hoffman, *Real-Time Rendering*, 3rd edition, 2008, section 9.1, figure 9.14; kept for
-//! comparison. Every edge costs its twelve vertices, whether it is silhouette or not. The book and the shader know only
-//! edges with two faces: an edge with more is drawn several times, each time with two of its faces, and these walls add
-//! up.
+//! comparison. Every edge costs its twelve vertices, silhouette or not. The book and the shader only support edges with
+//! two faces: an edge with more is drawn several times, each time with two of its faces, and these walls add up.
 
 use super::faces::{self, Faces, GROUP};
 use super::query::{NO_FACE, WallQuery, Walls, packed};
@@ -16,10 +15,10 @@ use wgpu::{
     BindGroup, BindGroupLayout, BindingType, BufferBindingType, BufferUsages, CommandEncoder, RenderPass, ShaderModule,
 };
 
-/// What all meshes share.
+/// The pipelines' shared parts.
 pub(in crate::shadow) struct QuadrilateralProgram {
     faces: Arc<faces::FacingProgram>,
-    /// The stencil's shader with these vertex stages.
+    /// The stencil's shader with these vertex entry points.
     pub(in crate::shadow) module: ShaderModule,
     pub(super) layout: BindGroupLayout,
 }
@@ -39,9 +38,9 @@ impl QuadrilateralProgram {
 /// The edges of one mesh on the GPU.
 pub(super) struct Quadrilaterals {
     faces: Faces,
-    /// Runs that fit the adapter's bindings, and how many edges they are.
+    /// Parts that fit the adapter's bindings, with their numbers of edges.
     runs: Vec<(BindGroup, u32)>,
-    /// How often a wall of two faces can stand.
+    /// The greatest multiplicity of a wall with two faces.
     instances: u32,
 }
 
@@ -52,7 +51,7 @@ impl Quadrilaterals {
         let faces = Faces::new(&program.faces, mesh, most)?;
         let pairs: Vec<layout::Quadrilateral> = (0..mesh.edges.len()).flat_map(|edge| pairs(mesh, edge)).collect();
         let mut runs = Vec::new();
-        // 256 MiB at most, so that six vertices an edge stay countable
+        // at most 256 MiB, so that six vertices per edge fit in 32 bits
         let at_once = most.min(1 << 28) as usize / size_of::<layout::Quadrilateral>();
         for pairs in pairs.chunks(at_once) {
             let buffer = gpu.storage("quadrilaterals", size_of_val(pairs) as u64, most, BufferUsages::COPY_DST)?;

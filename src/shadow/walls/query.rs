@@ -1,4 +1,4 @@
-//! The request for walls, and what all ways to make them share.
+//! The request for walls, and what all methods share.
 
 use super::borders::Borders;
 use crate::gpu::{GpuError, layout};
@@ -6,10 +6,10 @@ use crate::mesh::{Incidence, Mesh};
 use glam::{DVec4, Vec2, Vec3, Vec3Swizzles, Vec4, Vec4Swizzles};
 use wgpu::{CommandEncoder, RenderPass};
 
-/// The volume that is wanted.
+/// The requested volume.
 #[derive(Clone, Copy, Debug)]
 pub struct WallQuery {
-    /// The light around the mesh's origin (sun: w = 0, lamp: w = 1).
+    /// The light relative to the mesh's origin (sun: w = 0, lamp: w = 1).
     pub local_light: DVec4,
     /// Whether walls end in one point at infinity, so that each is one triangle instead of two.
     pub to_infinity: bool,
@@ -36,23 +36,23 @@ impl WallQuery {
     }
 }
 
-/// The walls and caps of one mesh. Where indices are drawn, they refer to a list that has each vertex twice: in its
-/// place, and at the far end of its walls.
+/// The walls and caps of one mesh. Indices refer to a list with two entries per vertex: its place, and the far end of
+/// its walls.
 pub trait Walls {
-    /// Finds the volume that is drawn next; what the GPU has to do for it goes into `encoder`. Says whether there may
-    /// be something to draw.
+    /// Finds the volume that is drawn next; the GPU's commands for that go into `encoder`. Returns whether there may be
+    /// something to draw.
     fn find(&mut self, mesh: &Mesh, sought: &WallQuery, encoder: &mut CommandEncoder) -> Result<bool, GpuError>;
 
     /// Draws its walls.
     fn draw_walls(&self, pass: &mut RenderPass<'_>);
 
-    /// Draws its light cap, where that was sought.
+    /// Draws its light cap, if it was requested.
     fn draw_cap(&self, pass: &mut RenderPass<'_>);
 }
 
 /// The vertex of an edge from which its wall's triangles begin: the one nearer to the sun, from which the plan's shader
-/// takes the depth of slivers; the lower number among equals, so that a wall and its opposite are the same triangles
-/// and cancel. The shaders decide by the same sum in `f32`.
+/// takes the depth of slivers. If both are equally near, it is the one with the lower index, so that a wall and its
+/// opposite are the same triangles and cancel. The shaders compute the same sum in `f32`.
 pub(super) fn sunward(vertices: &[Vec3], [one, other]: [u32; 2], light: Vec4) -> u32 {
     let (first, second) = (one.min(other), one.max(other));
     if along(vertices, [first, second]).dot(light.xy()) > 0.0 { second } else { first }
@@ -63,10 +63,10 @@ pub(super) fn along(vertices: &[Vec3], [first, second]: [u32; 2]) -> Vec2 {
     (vertices[second as usize] - vertices[first as usize]).xy()
 }
 
-/// Instead of a second face, where an edge has one (`NO_FACE` of `shaders/common/edge.wgsl`).
+/// Used instead of a second face if an edge has only one (`NO_FACE` of `shaders/common/edge.wgsl`).
 pub(super) const NO_FACE: u32 = u32::MAX;
 
-/// A face and which way it runs along an edge, as `shaders/common/edge.wgsl` reads it.
+/// A face with its direction along an edge, as encoded for `shaders/common/edge.wgsl`.
 pub(super) fn packed(incidence: Incidence) -> u32 {
     incidence.face() << 1 | u32::from(incidence.direction() < 0)
 }

@@ -12,9 +12,9 @@ pub(super) struct UploadedWalls {
     gpu: Arc<Gpu>,
     finder: Box<dyn SilhouetteFinder>,
     indices: Buffer,
-    /// What is uploaded, walls first; kept for its memory.
+    /// The indices to upload, walls first; kept for its allocation.
     upload: Vec<u32>,
-    /// How many of them are walls'.
+    /// The number of walls' indices.
     of_walls: u32,
 }
 
@@ -45,7 +45,7 @@ impl Walls for UploadedWalls {
     fn find(&mut self, mesh: &Mesh, sought: &WallQuery, _: &mut CommandEncoder) -> Result<bool, GpuError> {
         let volume = Volume::find(mesh, &mut *self.finder, sought.local_light, sought.with_cap);
         self.upload.clear();
-        // an edge's walls stand in a row
+        // repeated walls are consecutive
         for &wall in volume.walls.iter().step_by(if sought.halved { 2 } else { 1 }) {
             if !sought.borders.is_some_and(|borders| borders.hide(&mesh.vertices, wall)) {
                 append(&mut self.upload, mesh, wall, sought);
@@ -56,7 +56,7 @@ impl Walls for UploadedWalls {
 
         let size = (self.upload.len() * 4) as u64;
         if size > self.indices.size() {
-            // room for the next instants, whose silhouettes are much alike
+            // leaves room for the next instants, whose silhouettes are similar
             let roomy = (size + size / 2).next_multiple_of(4).min(self.gpu.limits.max_buffer_size.max(size));
             self.indices = buffer(&self.gpu, roomy)?;
         }
