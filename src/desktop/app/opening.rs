@@ -73,6 +73,7 @@ impl App {
             probing: None,
             sunlight: None,
             sky: None,
+            export_notes: Vec::new(),
             clicked: None,
             project,
         });

@@ -63,6 +63,8 @@ pub(in crate::desktop) struct Open {
     pub(in crate::desktop) sunlight: Option<Sunlight>,
     /// The picture of that point's sky.
     pub(in crate::desktop) sky: Option<PointSky>,
+    /// What the last export noted, as long as the site is the one that was exported.
+    pub(in crate::desktop) export_notes: Vec<Message>,
     /// The point that was clicked.
     pub(in crate::desktop) clicked: Option<PickedPoint>,
 }
