@@ -25,6 +25,7 @@ mod formats;
 mod geometry;
 mod georeference;
 mod gpu_silhouettes;
+mod judge;
 mod judged;
 mod live;
 mod look;

@@ -4,6 +4,7 @@ use super::animate::AnimateArgs;
 use super::arguments::{CheckArgs, Common, ProfileArgs, ShadowArgs, SunArgs, VerifyArgs, VolumesArgs};
 use super::compare::CompareArgs;
 use super::convert::ConvertArgs;
+use super::judge::JudgeArgs;
 use super::probe::ProbeArgs;
 use super::read_model::ReadModelArgs;
 use super::rules::RulesArgs;
@@ -57,6 +58,10 @@ pub(super) enum Command {
     Verify(VerifyArgs),
     /// When points lie in the sun, on one day or a range of dates: to the second, with what blocks it at other times
     Probe(ProbeArgs),
+    /// Whether a site keeps an authority's rule: the verdict of each area, window, façade or band and of the whole, the
+    /// margin, the day and the point that decide, and who takes the sun. Exit status 0 passes, 1 does not (or is too close to
+    /// say), 3 only reports
+    Judge(JudgeArgs),
     /// The built-in rules of authorities, with edition, source and options; or the text of one
     Rules(RulesArgs),
     /// Read a model for the program itself
@@ -79,6 +84,7 @@ impl Command {
             Command::Volumes(asked) => &asked.common,
             Command::Verify(asked) => &asked.common,
             Command::Probe(asked) => &asked.common,
+            Command::Judge(asked) => &asked.common,
         })
     }
 }

@@ -17,7 +17,10 @@ mod event;
 mod fingerprint;
 mod frames;
 mod gaps;
+mod ground_heights;
 mod instant;
+#[doc(hidden)]
+pub mod judge;
 #[doc(hidden)]
 pub mod live;
 mod machine;
