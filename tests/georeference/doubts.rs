@@ -125,7 +125,8 @@ fn of_bare_models_the_one_at_fault_is_named() {
         Ok(if path.ends_with("far.glb") { there.clone() } else { anchored(vec![map_anchor(0.0)]) })
     };
     let told = Models::read(&written, read).expect_err("on the other side of the Earth").to_string();
-    assert!(told.starts_with(&format!("{}: ", far.display())) && !told.contains("[[model]]"), "{told}");
+    assert!(told.starts_with(&format!("{}: by its IfcMapConversion", far.display())), "{told}");
+    assert!(told.contains("write `position = [0.0, 0.0, 0.0]` under [[model]] in a site file"), "{told}");
 }
 
 /// Two houses beside the meridian of 180°, some 20 m to its west and to its east.
