@@ -22,6 +22,7 @@ mod probe;
 mod profile;
 mod progress;
 mod read_model;
+mod reading_progress;
 mod rules;
 mod technique;
 mod values;
@@ -94,6 +95,9 @@ fn run(command: &Command) -> anyhow::Result<()> {
         None => anyhow::anyhow!("the threads that work could not be made: {error}; say --threads with fewer"),
     })?;
     interrupt::listen();
+    if command.common().is_some_and(|common| common.quiet) {
+        reading_progress::be_quiet();
+    }
     match command {
         Command::Profile(asked) => profile::profile(asked),
         Command::Compare(asked) => compare::compare(asked),

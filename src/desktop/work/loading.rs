@@ -45,8 +45,9 @@ pub(in crate::desktop) struct LoadJob {
     pub(in crate::desktop) name: String,
     /// Whether the site is opened, and not the open one read again.
     pub(in crate::desktop) opens: bool,
-    /// Whether it takes so long that it is shown: all but the open site's settings.
+    /// Whether it is known to take long: all but the open site's settings.
     pub(in crate::desktop) reads: bool,
+    begun: Instant,
     stage: Arc<Mutex<LoadStage>>,
     cancelled: Arc<AtomicBool>,
     result: mpsc::Receiver<Result<Project, LoadError>>,
@@ -73,7 +74,12 @@ impl LoadJob {
             let _ = tell.send(project);
             progress.context.request_repaint();
         });
-        LoadJob { name: name_of(&path), opens, reads, stage, cancelled, result }
+        LoadJob { name: name_of(&path), opens, reads, begun: Instant::now(), stage, cancelled, result }
+    }
+
+    /// Whether it is shown: at once where it takes long, and settings once they do, as with a model that was added.
+    pub(in crate::desktop) fn is_shown(&self) -> bool {
+        self.reads || self.begun.elapsed() > SHOWN_AFTER
     }
 
     /// How far it is, 0 to 1, and what is being done; of what takes long, for how long.
@@ -105,6 +111,8 @@ struct LoadStage {
     since: Instant,
 }
 
+/// Settings that are read within that time are not shown.
+const SHOWN_AFTER: Duration = Duration::from_secs(1);
 /// What takes no longer does not say how long it takes.
 const SOON: Duration = Duration::from_secs(2);
 
