@@ -4,9 +4,12 @@ use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
 
+/// Is called with each file when its reading begins, and with `None` when it has ended.
+type HearReading = dyn Fn(Option<&Path>) + Send + Sync;
+
 /// Hears of each file when its reading begins, and `None` when it has ended. The default hears nothing.
 #[derive(Clone, Default)]
-pub struct ReadingListener(Option<Arc<dyn Fn(Option<&Path>) + Send + Sync>>);
+pub struct ReadingListener(Option<Arc<HearReading>>);
 
 impl ReadingListener {
     /// Calls with what is heard.
