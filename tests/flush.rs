@@ -137,9 +137,9 @@ fn wrong(scene: &Scene, view: &View, faces: &[u32]) -> (usize, usize) {
         })
         .collect();
     let mut counted = (0, 0);
-    for at in 0..faces.len() {
+    for (at, face) in faces.iter().enumerate() {
         let Some(right) = expected(scene, view, &nearest, at) else { continue };
-        counted.0 += usize::from(name(scene, faces[at]) != right);
+        counted.0 += usize::from(name(scene, *face) != right);
         counted.1 += usize::from(right != "ground");
     }
     counted

@@ -7,7 +7,6 @@ use glam::{DVec3, dvec3};
 use gnomon::choice::{Engine, Method, Promise, Receivers, Settings, TABLE, Truth};
 use gnomon::export::verify as told;
 use gnomon::mesh::Mesh;
-use gnomon::mesh::patches::Patches;
 use gnomon::profile::Provenance;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::shadow::soft_texture::{Choice, Fill, Painter, SoftTexture};
@@ -207,7 +206,7 @@ fn a_wrong_texel_of_a_facade_is_seen() {
     let site = load(SITE, &asked()).unwrap();
     let with = |wrong: Option<usize>| {
         let mut surfaces = SurfaceTrials::without_trials(&site).unwrap().expect("façades");
-        let patches = Arc::new(Patches::of(&site.mesh, &site.receives, site.grid.cell, site.grid.cells()));
+        let patches = Arc::clone(surfaces.patches());
         let casters = site.mesh.of_components(&site.casts);
         let rays = SoftTexture::new(casters, Arc::clone(&patches), Painter::OnProcessor(Fill::Faces), Choice::Rays);
         let mut rays = rays.unwrap();

@@ -24,6 +24,7 @@ mod probe;
 mod profile;
 mod progress;
 mod read_model;
+mod reading_progress;
 mod rules;
 mod technique;
 mod values;
@@ -96,6 +97,9 @@ fn run(command: &Command) -> anyhow::Result<ExitCode> {
         None => anyhow::anyhow!("the worker threads could not be created: {error}; use --threads with fewer"),
     })?;
     interrupt::listen();
+    if command.common().is_some_and(|common| common.quiet) {
+        reading_progress::be_quiet();
+    }
     let done = match command {
         Command::Judge(asked) => return judge::judge(asked),
         Command::Profile(asked) => profile::profile(asked),

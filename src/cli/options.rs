@@ -1,13 +1,13 @@
 //! The command's words for the fields of a request: its options.
 
-use super::interrupt;
+use super::{interrupt, reading_progress};
 use crate::formats::ModelReader;
 use crate::message::{Field, Words};
 use crate::site::Overrides;
 
 /// An empty request. Notes use the command's words, and models are read as the program does.
 pub(super) fn nothing_asked() -> Overrides {
-    let reading = ModelReader::of_this_program().until(interrupt::asked());
+    let reading = ModelReader::of_this_program().until(interrupt::asked()).heard_by(reading_progress::listener());
     Overrides { words: &Options, reading, ..Overrides::default() }
 }
 

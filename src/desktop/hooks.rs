@@ -2,6 +2,7 @@
 
 use super::app::state::App;
 use super::app::study;
+use crate::formats::ModelReader;
 use crate::profile::Provenance;
 use crate::site::file::SiteFile;
 use crate::view::View;
@@ -17,6 +18,17 @@ impl App {
             && self.writing.is_none()
             && !self.stage.is_busy()
             && open.is_none_or(|open| open.adding.is_none() && open.probing.is_none() && open.viewer.is_settled())
+    }
+
+    /// The same window, with another reader of models.
+    pub fn reading_by(mut self, reading: ModelReader) -> App {
+        self.reading = reading;
+        self
+    }
+
+    /// Whether a site is being loaded.
+    pub fn is_loading(&self) -> bool {
+        self.loading.is_some()
     }
 
     /// Whether hours are being added up.

@@ -91,8 +91,9 @@ pub(super) fn read(
         Ok(Err(error)) => {
             let words = words.recv_timeout(Duration::from_secs(1)).unwrap_or_default();
             let fault = broken_off(&mut process, &error, &words);
-            // Ctrl-C in a terminal reaches both processes, and the child may end first
-            if is_given_up.load(Ordering::Relaxed) { Err(ModelFault::GivenUp) } else { Err(fault.into()) }
+            // Ctrl-C in a terminal reaches both processes, and the child may end before this one hears of it
+            let is_wish = is_given_up.load(Ordering::Relaxed) || was_interrupted(&mut process);
+            if is_wish { Err(ModelFault::GivenUp) } else { Err(fault.into()) }
         }
     }
 }
@@ -216,6 +217,20 @@ fn too_large(bytes: u64) -> Message {
         format!("takes more memory to read than {most}, and reading was stopped");
         SMALLER, Piece::Where(Field::ReadMemory, pieces![", or allow more with ", (Field::ReadMemory, "64GiB")])
     ]
+}
+
+/// Whether a process that has ended was ended by Ctrl-C.
+#[cfg(unix)]
+fn was_interrupted(process: &mut EndingProcess) -> bool {
+    use std::os::unix::process::ExitStatusExt as _;
+    const SIGINT: i32 = 2;
+    process.0.wait().is_ok_and(|status| status.signal() == Some(SIGINT))
+}
+
+/// Elsewhere it has no console, and never hears of it.
+#[cfg(not(unix))]
+fn was_interrupted(_: &mut EndingProcess) -> bool {
+    false
 }
 
 fn broken_off(process: &mut EndingProcess, error: &EncodingError, words: &str) -> Message {

@@ -35,6 +35,7 @@ mod monotone;
 mod names;
 mod obj;
 mod ply;
+mod reading_listener;
 mod refused;
 mod source;
 mod stl;
@@ -61,6 +62,8 @@ pub use model::{Anchor, AnchorPoint, Coordinates, LeftOut, Model, PartKind, Read
 pub use model::{ModelError, ModelFault, Up};
 pub use model_reader::ModelReader;
 pub(crate) use names::{composed, on_disk};
+#[doc(hidden)]
+pub use reading_listener::ReadingListener;
 pub(crate) use refused::refusal;
 #[doc(hidden)]
 pub use table::{FORMATS, by_ending, read};

@@ -1,11 +1,11 @@
 //! How model files are read: in which process, within which limits, and with which cache.
 
 use super::table::{format_of, read_as};
-use super::{Model, ModelCache, ModelError, ModelFault, ReadLimits, ReadOptions, child};
+use super::{Model, ModelCache, ModelError, ModelFault, ReadLimits, ReadOptions, ReadingListener, child};
 use crate::message::message;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How model files are read.
 ///
@@ -20,8 +20,12 @@ pub struct ModelReader {
     pub limits: ReadLimits,
     /// The cache for models that take long to read.
     pub cache: Option<ModelCache>,
-    /// Set this to cancel the reading: the process is then ended, and reading fails with [`ModelFault::GivenUp`].
+    /// Set this to cancel the reading. The process is then ended at once, and what this process itself reads is
+    /// dropped when it has been read; reading fails with [`ModelFault::GivenUp`].
     pub given_up: Arc<AtomicBool>,
+    /// Who hears what is being read.
+    #[doc(hidden)]
+    pub listener: ReadingListener,
 }
 
 impl ModelReader {
@@ -36,15 +40,23 @@ impl ModelReader {
         ModelReader { given_up: Arc::clone(given_up), ..self.clone() }
     }
 
+    /// The same, with somebody who hears what is being read.
+    #[doc(hidden)]
+    pub fn heard_by(self, listener: ReadingListener) -> ModelReader {
+        ModelReader { listener, ..self }
+    }
+
     /// Reads a model file of any format. Every part has triangles, and there is at least one part.
     ///
     /// # Errors
     /// What is wrong with the file, with a hint.
     pub fn read(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelError> {
+        let _heard = self.listener.begin(path);
         self.read_within(path, options).map_err(|fault| ModelError { file: path.to_owned(), fault })
     }
 
     fn read_within(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
+        self.check_given_up()?;
         let format = format_of(path)?;
         let is_foreign = format.is_foreign(path, options);
         let cache = self.cache.as_ref().filter(|_| is_foreign);
@@ -57,11 +69,17 @@ impl ModelReader {
             Some(program) => child::read(program, self.limits, &self.given_up, path, options)?,
             None => read_as(format, path, options)?,
         };
+        // our own readers do not look for it
+        self.check_given_up()?;
         if let Some(Err(error)) = entry.map(|entry| entry.keep(&model)) {
             let note = format!("is read again each time, as the cache cannot be written: {error}");
             model.notes.push(message![note]);
         }
         Ok(model)
+    }
+
+    fn check_given_up(&self) -> Result<(), ModelFault> {
+        if self.given_up.load(Ordering::Relaxed) { Err(ModelFault::GivenUp) } else { Ok(()) }
     }
 
     /// As [`ModelReader::read`], but without the cache and always in a child process.

@@ -156,18 +156,14 @@ pub fn hold(
     let trees = trees.row(cast, Truth::EveryFace, Promise::Same, None)?;
     rows.push(Row { secs: centre_secs, ..trees });
     let clean = report::components(&site.mesh).iter().zip(&site.casts).all(|(part, casts)| !casts || part.clean());
+    let (grid, edge_share) = (site.grid, edge_share(site, clean));
+    Ok(Verification { grid, instants: count, clean, edge_share, sun_samples, disc_secs, surfaces: compared, rows })
+}
+
+/// Which part of an exact technique's edge cells may differ on a site's plan.
+fn edge_share(site: &Site, clean: bool) -> f64 {
     let is_plane = subject_of(site, &View::Plan(site.grid)) == Subject::Ground;
-    let edge_share = if clean && is_plane { EDGE_SHARE_CLEAN } else { EDGE_SHARE };
-    Ok(Verification {
-        grid: site.grid,
-        instants: count,
-        clean,
-        edge_share,
-        sun_samples,
-        disc_secs,
-        surfaces: compared,
-        rows,
-    })
+    if clean && is_plane { EDGE_SHARE_CLEAN } else { EDGE_SHARE }
 }
 
 /// The instants by day.

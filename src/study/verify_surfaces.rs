@@ -4,7 +4,7 @@ use super::StudyError;
 use super::patches::way_of;
 use crate::choice::{Engine, Method, Promise, Settings, Subject, TABLE, Truth};
 use crate::gpu::Gpu;
-use crate::mesh::patches::{Patch, Patches, Texel};
+use crate::mesh::patches::{MOST_TEXELS, Patch, Patches, Texel};
 use crate::profile::Provenance;
 use crate::shadow::ShadowError;
 use crate::shadow::soft_texture::{Choice, Fill, Painter, Sample, SoftTexture};
@@ -53,7 +53,7 @@ struct TexelTally {
 
 impl SurfaceTrials {
     /// All techniques that draw façades and roofs, on the processor and on an adapter; `None` where a site has no flat
-    /// surfaces. Texels are as large as the plan's cells, or larger where there would be more of them.
+    /// surfaces.
     ///
     /// # Errors
     /// [`StudyError::Shadow`] where the adapter does not hold them.
@@ -85,13 +85,19 @@ impl SurfaceTrials {
     /// # Errors
     /// As [`SurfaceTrials::new`].
     pub fn without_trials(site: &Site) -> Result<Option<SurfaceTrials>, StudyError> {
-        let patches = Arc::new(Patches::of(&site.mesh, &site.receives, site.grid.cell, site.grid.cells()));
+        let patches = Arc::new(Patches::of(&site.mesh, &site.receives, texel(site), MOST_TEXELS));
         if patches.list.is_empty() {
             return Ok(None);
         }
         let (casters, painter) = (site.mesh.of_components(&site.casts), Painter::OnProcessor(Fill::Faces));
         let truth = SoftTexture::new(casters, Arc::clone(&patches), painter, Choice::Rays)?;
         Ok(Some(SurfaceTrials { patches, truth, trials: Vec::new() }))
+    }
+
+    /// The façades and roofs.
+    #[cfg(feature = "test-hooks")]
+    pub fn patches(&self) -> &Arc<Patches> {
+        &self.patches
     }
 
     /// Adds a technique.
@@ -147,6 +153,18 @@ impl SurfaceTrials {
     pub(super) fn rows(self, has_weight: bool) -> impl Iterator<Item = Row> {
         self.trials.into_iter().map(move |(trial, tally)| tally.row(trial, has_weight))
     }
+}
+
+/// The side of a texel, metres: as large as the plan's cells, or larger where there would be more of them. Each patch has one
+/// at least, however small it is.
+fn texel(site: &Site) -> f64 {
+    let receiving = site.mesh.components.iter().zip(&site.receives).filter(|(_, receives)| **receives);
+    let faces = receiving.flat_map(|(component, _)| component.faces.clone());
+    let area = |face: u32| {
+        let [a, b, c] = site.mesh.corners(face as usize).map(|corner| corner.as_dvec3());
+        (b - a).cross(c - a).length() / 2.0
+    };
+    site.grid.cell.max((faces.map(area).sum::<f64>() / site.grid.cells() as f64).sqrt())
 }
 
 /// Draws a sun by itself, from sums: an adapter tells nothing else.

@@ -217,3 +217,52 @@ fn notes_of_models_stand_in_the_panel() {
     harness.get_by_label_contains("works.glb has 1 node with a mesh that is hidden (KHR_node_visibility)");
     assert_eq!(harness.state().site_file().model.len(), 1);
 }
+
+/// A model that takes long to read: its progress is shown, and once it is cancelled the open site is as it was.
+#[cfg(unix)]
+#[test]
+fn reading_a_dropped_model_can_be_cancelled() {
+    let (folder, site) = small_site();
+    // a reader that never ends; another process writes it, as none can be started that is still open in this one
+    let program = folder.path().join("reader.sh");
+    let script = "printf '#!/bin/sh\\nexec sleep 600\\n' > \"$0\" && chmod +x \"$0\"";
+    assert!(std::process::Command::new("sh").args(["-c", script]).arg(&program).status().unwrap().success());
+    let reading = gnomon::formats::ModelReader { program: Some(program), ..Default::default() };
+    let path = site.clone();
+    let mut harness = Harness::<App>::builder()
+        .with_size(egui::vec2(1280.0, 720.0))
+        .wgpu_setup(desktop::setup())
+        .build_eframe(move |cc| App::new(cc, Some(&path)).expect("an adapter").reading_by(reading));
+    settle(&mut harness);
+    let before = harness.state().site_file().clone();
+    let picture = harness.state().picture().unwrap();
+    let slow = folder.path().join("slow.ifc");
+    std::fs::write(
+        &slow,
+        "ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('IFC4'));\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n",
+    )
+    .unwrap();
+    for answer in ["Open instead", "Add to the site"] {
+        drop_file(&mut harness, &slow);
+        click(&mut harness, answer);
+        let begun = Instant::now();
+        // how far it is, and for how long it takes
+        let lasts = |harness: &Harness<'_, App>| {
+            harness.query_by_label_contains("Reading model ").is_some()
+                && named(harness, "Reading model ").0.ends_with(" s")
+        };
+        while !lasts(&harness) {
+            harness.step();
+            std::thread::sleep(Duration::from_millis(10));
+            assert!(begun.elapsed() < Duration::from_secs(30), "{answer}: no progress is shown");
+        }
+        click(&mut harness, "Cancel");
+        assert!(!harness.state().is_loading(), "{answer}");
+        settle(&mut harness);
+        assert!(harness.query_by_label_contains("Loading").is_none(), "{answer}");
+        assert_eq!(harness.state().fault_and_notice(), [None, None], "{answer}");
+        harness.get_by_label("Works");
+        assert!(harness.state().picture().unwrap() == picture, "{answer}: another picture");
+        assert!(*harness.state().site_file() == before && !harness.state().is_unsaved(), "{answer}");
+    }
+}

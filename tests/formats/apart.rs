@@ -1,8 +1,10 @@
 //! What is read in a process of its own: it gives the same model, and whatever it does is one clear error.
 
 use crate::shared::program::site;
-use gnomon::formats::{self, ModelReader, ReadOptions, SceneName};
+use gnomon::formats::{self, ModelReader, ReadOptions, ReadingListener, SceneName};
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
 
 /// The program itself.
 pub(super) fn apart() -> ModelReader {
@@ -69,6 +71,27 @@ fn readers_of_others_run_apart() {
     assert_eq!(format!("{here:?}"), format!("{there:?}"));
 }
 
+/// What is read is heard of, and what nobody needs any more is not read, nor used.
+#[test]
+fn reading_is_heard_and_given_up() {
+    let folder = site();
+    let heard = Arc::new(Mutex::new(Vec::new()));
+    let hears = Arc::clone(&heard);
+    let given_up = Arc::new(AtomicBool::new(false));
+    let gives_up = Arc::clone(&given_up);
+    let listener = ReadingListener::new(move |path| {
+        hears.lock().unwrap().push(path.map(|path| path.file_name().unwrap().to_owned()));
+        // the second one while it is read
+        gives_up.store(hears.lock().unwrap().len() == 3, Ordering::Relaxed);
+    });
+    let reading = ModelReader::default().until(&given_up).heard_by(listener);
+    let read = |name: &str| reading.read(&folder.path().join(name), &ReadOptions::default());
+    assert!(read("tower.glb").is_ok());
+    assert!(read("open.glb").is_err_and(|error| error.is_given_up()));
+    let names = [Some("tower.glb"), None, Some("open.glb"), None].map(|name| name.map(std::ffi::OsString::from));
+    assert_eq!(*heard.lock().unwrap(), names);
+}
+
 /// Programs that do what a bad reader may do.
 #[cfg(unix)]
 mod bad_readers {
@@ -79,8 +102,6 @@ mod bad_readers {
     use std::io::Write;
     use std::path::Path;
     use std::process::{Command, Stdio};
-    use std::sync::Arc;
-    use std::sync::atomic::{AtomicBool, Ordering};
     use std::time::{Duration, Instant};
 
     /// A program; another process writes it, as none can be started that is still open in this one.
@@ -101,7 +122,7 @@ mod bad_readers {
     fn read(text: &str, limits: ReadLimits, given_up: &Arc<AtomicBool>) -> ModelError {
         let folder = site();
         let program = Some(program(folder.path(), text));
-        let reading = ModelReader { program, limits, cache: None, given_up: Arc::clone(given_up) };
+        let reading = ModelReader { program, limits, ..ModelReader::default().until(given_up) };
         let begun = Instant::now();
         let error = reading.read_apart(&folder.path().join("tower.glb"), &ReadOptions::default()).unwrap_err();
         assert!(begun.elapsed() < Duration::from_secs(30), "{text} took {:?}", begun.elapsed());
@@ -158,6 +179,13 @@ mod bad_readers {
         assert!(told("echo 'a model, I promise, of many a wall'").contains("they begin with a different mark"));
         let cut = format!("\"{}\" \"$@\" | head -c 400", env!("CARGO_BIN_EXE_gnomon"));
         assert!(told(&cut).contains("they end early"));
+    }
+
+    /// On a terminal Ctrl-C reaches the reader, too, and it may end before anybody here hears of it.
+    #[test]
+    fn one_that_ctrl_c_ends_is_given_up() {
+        let error = read("kill -INT $$; sleep 600", ReadLimits::default(), &Arc::default());
+        assert!(error.is_given_up(), "{error}");
     }
 
     #[test]

@@ -4,6 +4,8 @@ mod archive;
 mod hostile;
 pub(super) mod house;
 mod place;
+#[cfg(unix)]
+mod stopped;
 
 use glam::DVec3;
 use gnomon::formats::{self, LeftOut, Model, PartKind, ReadOptions, Up};

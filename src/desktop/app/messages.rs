@@ -2,6 +2,7 @@
 
 use crate::desktop::app::state::App;
 use crate::desktop::work::export;
+use crate::desktop::work::loading::LoadJob;
 use eframe::egui::{self, Ui};
 
 impl App {
@@ -35,6 +36,8 @@ impl App {
                 self.refused = (!loading.opens).then(|| self.settings.clone());
                 (self.loading, self.is_reading) = (None, false);
             }
+            // what is on the disk is refused until the settings change
+            _ => self.refused = (!loading.opens).then(|| self.settings.clone()),
         }
     }
 
@@ -90,7 +93,7 @@ impl App {
             || self.notice.is_some()
             || self.writing.is_some()
             || self.changed.is_some()
-            || self.loading.as_ref().is_some_and(|loading| loading.reads)
+            || self.loading.as_ref().is_some_and(LoadJob::is_shown)
             || self.open.as_ref().is_some_and(|open| open.viewer.fault.is_some())
     }
 }

@@ -47,6 +47,7 @@ pub(in crate::desktop) struct LoadJob {
     pub(in crate::desktop) opens: bool,
     /// Whether its progress is shown: always, except for changed settings of the open site.
     pub(in crate::desktop) reads: bool,
+    begun: Instant,
     stage: Arc<Mutex<LoadStage>>,
     cancelled: Arc<AtomicBool>,
     result: mpsc::Receiver<Result<Project, LoadError>>,
@@ -73,7 +74,12 @@ impl LoadJob {
             let _ = tell.send(project);
             progress.context.request_repaint();
         });
-        LoadJob { name: name_of(&path), opens, reads, stage, cancelled, result }
+        LoadJob { name: name_of(&path), opens, reads, begun: Instant::now(), stage, cancelled, result }
+    }
+
+    /// Whether it is shown: at once where it takes long, and settings once they do, as with a model that was added.
+    pub(in crate::desktop) fn is_shown(&self) -> bool {
+        self.reads || self.begun.elapsed() > SHOWN_AFTER
     }
 
     /// The progress, 0 to 1, and the current stage; for long stages with the elapsed time.
@@ -105,6 +111,8 @@ struct LoadStage {
     since: Instant,
 }
 
+/// Settings that are read within that time are not shown.
+const SHOWN_AFTER: Duration = Duration::from_secs(1);
 /// Shorter stages do not show the elapsed time.
 const SOON: Duration = Duration::from_secs(2);
 
