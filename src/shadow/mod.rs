@@ -4,6 +4,7 @@
 //! name where it draws on the GPU.
 
 mod batch;
+mod changes;
 mod counting;
 mod flat;
 mod frame;
@@ -34,10 +35,13 @@ pub mod walls;
 use crate::gpu::{Gpu, GpuError, readback};
 use crate::mesh::Mesh;
 use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display};
-use crate::view::{Bits, CellWord, FragmentCounts, Mask, Surface, Tile, View};
+use crate::view::{Bits, FragmentCounts, Mask, Surface, Tile, View};
 use glam::{DVec3, DVec4};
+use std::ops::Range;
 use std::sync::Arc;
 
+#[doc(hidden)]
+pub use changes::{DifferingCells, LightChange};
 #[doc(hidden)]
 pub use plan_surface::{PlanSurface, plan_surface};
 #[doc(hidden)]
@@ -93,7 +97,7 @@ impl DrawnMask<'_> {
     }
 }
 
-/// Cells that a technique asks singly between two instants.
+/// Cells that a technique searches singly between two instants.
 #[doc(hidden)]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SingleCells {
@@ -118,12 +122,13 @@ pub trait Technique {
     /// Draws the mask for the unit vector to the sun, which is above the horizon.
     fn draw(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError>;
 
-    /// The cells that are asked singly between two instants, since drawing them whole costs more; none where all are drawn.
+    /// The cells that are searched singly between two instants, since drawing them whole costs more; none where all are
+    /// drawn.
     fn single_cells(&self) -> Option<SingleCells> {
         None
     }
 
-    /// As [`Technique::draw`], without those cells that are asked singly: they are not in shadow.
+    /// As [`Technique::draw`], without those cells that are searched singly: they are not in shadow.
     ///
     /// # Errors
     /// As [`Technique::draw`].
@@ -131,14 +136,12 @@ pub trait Technique {
         self.draw(to_sun)
     }
 
-    /// Which of some cells are in shadow, of those that are asked singly: bits of the words that are asked, of which others
-    /// than the asked ones mean nothing.
+    /// When the cells of some rows change that differ between two instants, of those that are searched singly.
     ///
     /// # Errors
     /// As [`Technique::draw`].
-    fn shaded_of(&mut self, to_sun: DVec3, asked: &[CellWord]) -> Result<Vec<u64>, ShadowError> {
-        let bits = self.draw(to_sun)?.bits()?;
-        Ok(asked.iter().map(|asked| bits.words[asked.word as usize]).collect())
+    fn changes(&mut self, _cells: &DifferingCells<'_>, _rows: Range<usize>) -> Result<Vec<LightChange>, ShadowError> {
+        Ok(Vec::new())
     }
 
     /// Turns to another view of the same scene, and keeps what does not depend on the view. Returns `false` if the

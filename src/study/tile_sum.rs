@@ -1,16 +1,16 @@
 //! A tile's shaded time: its instants, and between them the times at which its cells change.
 //!
 //! What a technique draws whole is drawn at every moment between two instants, so that nothing is missed. Cells that are
-//! asked singly are asked only where the two instants differ, by halving.
+//! searched singly are searched only where the two instants differ, by halving.
 
 use super::gaps::{Gap, Gaps};
-use super::{StudyError, Wants, night};
+use super::{Event, OnEvent, StudyError, Wants, night, tell};
 use crate::gpu::Gpu;
 use crate::profile::Shaded;
 use crate::profile::accumulate::Sum;
-use crate::shadow::{DrawnMask, ShadowError, SingleCells, Technique};
+use crate::shadow::{DifferingCells, DrawnMask, LightChange, ShadowError, SingleCells, Technique};
 use crate::site::Site;
-use crate::view::{Bits, CellWord, Mask, Tile, View};
+use crate::view::{Bits, Mask, Tile, View};
 use std::sync::Arc;
 
 /// The running sum.
@@ -18,7 +18,7 @@ pub(super) struct TileSum<'a> {
     site: &'a Site,
     gaps: Gaps<'a>,
     sum: Sum,
-    /// The shadow at an instant that begins a gap, of those cells that are asked singly; and which instant it is.
+    /// The shadow at an instant that begins a gap, of those cells that are searched singly; and which instant it is.
     before: Option<(usize, Bits)>,
 }
 
@@ -35,12 +35,21 @@ impl<'a> TileSum<'a> {
         self.sum.begin_with(shaded, by_day.map(|instant| instant.weight_secs).sum());
     }
 
+    /// Whether the time before an instant is searched.
+    pub(super) fn searches_before(&self, at: usize) -> bool {
+        self.gaps.before(at).is_some()
+    }
+
     /// Adds an instant and the gap before it. Returns the instant's mask and its bits, where they are wanted.
+    ///
+    /// # Errors
+    /// [`StudyError::Interrupted`] within the gap if the listener ends the work; the sum is of no use then.
     pub(super) fn add(
         &mut self,
         at: usize,
         technique: &mut dyn Technique,
         wants: &Wants,
+        on_event: &mut OnEvent<'_>,
     ) -> Result<(Option<Mask>, Option<Bits>), StudyError> {
         let instant = &self.site.track.instants[at];
         if instant.night {
@@ -48,7 +57,7 @@ impl<'a> TileSum<'a> {
         }
         let single = self.gaps.touch(at).then(|| technique.single_cells()).flatten();
         if single != Some(SingleCells::All) {
-            self.add_moments(at, technique)?;
+            self.add_moments(at, technique, on_event)?;
         }
         let begun = match (&single, self.before.take()) {
             (Some(single), before) if self.gaps.before(at).is_some() => match before {
@@ -68,7 +77,7 @@ impl<'a> TileSum<'a> {
                 self.add_bits(&after, own_secs)?;
                 self.add_bits(&bits.with(&after, |all, single| all & !single), among_secs)?;
                 if let (Some(gap), Some(before)) = (self.gaps.before(at), begun) {
-                    CellSearch { technique, gap, before: &before, sum: &mut self.sum }.add_gap(&after)?;
+                    CellSearch { technique, gap, sum: &mut self.sum }.add_gap([&before, &after], on_event)?;
                 }
                 self.before = Some((at, after));
             }
@@ -78,10 +87,16 @@ impl<'a> TileSum<'a> {
     }
 
     /// Adds what is drawn whole at the moments of the gap before an instant.
-    fn add_moments(&mut self, at: usize, technique: &mut dyn Technique) -> Result<(), StudyError> {
+    fn add_moments(
+        &mut self,
+        at: usize,
+        technique: &mut dyn Technique,
+        on_event: &mut OnEvent<'_>,
+    ) -> Result<(), StudyError> {
         for moment in self.gaps.before(at).iter().flat_map(Gap::moments) {
             let (to_sun, secs) = moment?;
             self.sum.add(&technique.draw_whole(to_sun)?, secs)?;
+            tell(on_event, Event::Between)?;
         }
         Ok(())
     }
@@ -106,48 +121,41 @@ impl<'a> TileSum<'a> {
     }
 }
 
+/// So many cells are searched before a listener is asked whether to go on: about what an instant takes.
+const CELLS_AT_ONCE: usize = 1 << 22;
+/// And no fewer rows, which are shared out among the processors.
+const FEWEST_ROWS: usize = 1 << 8;
+
 /// The search for the times at which cells change within a gap.
 struct CellSearch<'a> {
     technique: &'a mut dyn Technique,
     gap: Gap<'a>,
-    /// The shadow as the gap begins.
-    before: &'a Bits,
     sum: &'a mut Sum,
 }
 
 impl CellSearch<'_> {
     /// Adds the gap's seconds to cells that are in shadow at both ends, and to others as many as they are found to be.
-    fn add_gap(&mut self, after: &Bits) -> Result<(), StudyError> {
-        self.sum.add_gap([self.before, after], self.gap.secs())?;
-        self.halve([0, self.gap.steps()], &self.before.differing(after))
-    }
-
-    /// Between two moments the cells that `differ` at them change: finds in which half each of them does.
-    fn halve(&mut self, [from, to]: [u32; 2], differ: &[CellWord]) -> Result<(), StudyError> {
-        if differ.is_empty() {
+    fn add_gap(&mut self, ends: [&Bits; 2], on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+        self.sum.add_gap(ends, self.gap.secs())?;
+        let [Bits { width, height, words: before }, Bits { words: after, .. }] = ends;
+        if before == after {
             return Ok(());
         }
-        let before: Vec<u64> = differ.iter().map(|differ| self.before.words[differ.word as usize]).collect();
-        if to - from == 1 {
-            let secs = self.gap.secs_before_change(from);
-            let [shaded, lit] = parted(differ, &before);
-            self.sum.add_in_gap(self.before, &shaded, secs)?;
-            return Ok(self.sum.add_in_gap(self.before, &lit, self.gap.secs() - secs)?);
+        let suns = (0..=self.gap.steps()).map(|step| self.gap.sun_at(step)).collect::<Result<Vec<_>, _>>()?;
+        let cells = DifferingCells { ends, suns: &suns };
+        let (height, rows) = (*height as usize, (CELLS_AT_ONCE / *width as usize).max(FEWEST_ROWS));
+        for first in (0..height).step_by(rows) {
+            let changes = self.technique.changes(&cells, first..(first + rows).min(height))?;
+            let shaded: Vec<(usize, u32)> = changes.iter().map(|change| self.shaded_secs(change)).collect();
+            self.sum.add_in_gap(&shaded)?;
+            tell(on_event, Event::Between)?;
         }
-        let middle = from + (to - from) / 2;
-        let shaded = self.technique.shaded_of(self.gap.sun_at(middle)?, differ)?;
-        let changed: Vec<u64> = shaded.iter().zip(&before).map(|(shaded, before)| shaded ^ before).collect();
-        let [earlier, later] = parted(differ, &changed);
-        self.halve([from, middle], &earlier)?;
-        self.halve([middle, to], &later)
+        Ok(())
     }
-}
 
-/// Those cells whose bits are set, and the others; words without any are left out.
-fn parted(cells: &[CellWord], bits: &[u64]) -> [Vec<CellWord>; 2] {
-    let part = |of: &dyn Fn(u64, u64) -> u64| {
-        let words = cells.iter().zip(bits).map(|(word, bits)| CellWord { cells: of(word.cells, *bits), ..*word });
-        words.filter(|word| word.cells != 0).collect()
-    };
-    [part(&|cells, bits| cells & bits), part(&|cells, bits| cells & !bits)]
+    /// How long a cell is in shadow that changes.
+    fn shaded_secs(&self, change: &LightChange) -> (usize, u32) {
+        let before = self.gap.secs_before_change(change.moment);
+        (change.number, if change.was_shaded { before } else { self.gap.secs() - before })
+    }
 }

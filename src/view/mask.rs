@@ -26,33 +26,6 @@ pub struct Bits {
     pub words: Vec<u64>,
 }
 
-/// Some cells, of one word of [`Bits::words`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct CellWord {
-    /// Which word.
-    pub word: u32,
-    /// Its bits: 1 for each of the cells.
-    pub cells: u64,
-}
-
-impl CellWord {
-    /// The row of its cells, and the column of the first of them, where a row has so many words.
-    pub(crate) fn place(self, in_row: usize) -> (usize, usize) {
-        let word = self.word as usize;
-        (word / in_row, word % in_row * 64)
-    }
-
-    /// The bits, counted from the lowest.
-    pub(crate) fn bits(self) -> impl Iterator<Item = u32> {
-        let mut rest = self.cells;
-        std::iter::from_fn(move || {
-            let bit = rest.trailing_zeros();
-            rest &= rest.wrapping_sub(1);
-            (bit < 64).then_some(bit)
-        })
-    }
-}
-
 impl Bits {
     /// A raster without shadow.
     pub fn new(width: u32, height: u32) -> Bits {
@@ -78,12 +51,6 @@ impl Bits {
     pub(crate) fn with(&self, other: &Bits, of: impl Fn(u64, u64) -> u64) -> Bits {
         let words = self.words.iter().zip(&other.words).map(|(one, other)| of(*one, *other)).collect();
         Bits { words, ..*self }
-    }
-
-    /// The cells in which two rasters of the same size differ.
-    pub(crate) fn differing(&self, other: &Bits) -> Vec<CellWord> {
-        let differ = |(at, (one, other)): (usize, (&u64, &u64))| CellWord { word: at as u32, cells: one ^ other };
-        self.words.iter().zip(&other.words).enumerate().map(differ).filter(|word| word.cells != 0).collect()
     }
 
     /// Puts a tile's cells in their place on the plan. A tile's first column is a multiple of 64.

@@ -274,7 +274,12 @@ impl StudyStore<'_> {
             }
             // after a fault there is nothing to go on from
             Event::Kept(done) if self.fault.is_none() => self.keep(done)?,
-            Event::Note(_) | Event::Kept(_) | Event::Stage(_) | Event::Resumes { .. } | Event::Prepared { .. } => {}
+            Event::Note(_)
+            | Event::Kept(_)
+            | Event::Stage(_)
+            | Event::Between
+            | Event::Resumes { .. }
+            | Event::Prepared { .. } => {}
         }
         Ok(())
     }

@@ -14,22 +14,20 @@ pub use on_gpu::ProjectedOnGpu;
 use super::flat::FlatShadow;
 use super::plan_surface::highest;
 use super::raised::{Falling, RaisedCells};
-use super::ray_cast::{RayCaster, Shear, TIE, reach};
-use super::{DrawnMask, JUDGED_ABOVE_M, Scene, ShadowError, SingleCells, Technique};
-use crate::view::{Bits, CellWord, Grid, Surface, Tile, View};
+use super::ray_cast::{RayCaster, TIE, reach};
+use super::{DifferingCells, DrawnMask, JUDGED_ABOVE_M, LightChange, Scene, ShadowError, SingleCells, Technique};
+use crate::view::{Grid, Surface, Tile, View};
 use glam::{DAffine3, DMat3, DVec2, DVec3};
-use std::sync::Arc;
+use std::ops::Range;
 
 /// The technique, made for one scene and one plan, or a tile of it.
 pub struct Projected {
     shadow: FlatShadow,
     raised: RaisedCells,
-    /// The cells above the ground, where there are any.
-    above: Option<Arc<Bits>>,
     scene: Scene,
     raster_from_local: DAffine3,
     tile: Tile,
-    /// Made once single cells are asked.
+    /// Made once single cells are searched.
     rays: Option<RayCaster>,
 }
 
@@ -40,8 +38,7 @@ impl Projected {
         let raster_from_local = raster_from_local(scene, &tile.plan);
         let shadow = FlatShadow::new(&scene.casters, raster_from_local, tile.first, tile.size);
         let raised = RaisedCells::new(scene, tile, &raster_from_local);
-        let above = raised.cells(tile.size);
-        Projected { shadow, raised, above, scene: scene.clone(), raster_from_local, tile, rays: None }
+        Projected { shadow, raised, scene: scene.clone(), raster_from_local, tile, rays: None }
     }
 
     /// Lets everything fall at every instant: the twin by which culling is proven.
@@ -84,25 +81,28 @@ impl Technique for Projected {
 
     /// Those above the ground: the ground's shadow costs little.
     fn single_cells(&self) -> Option<SingleCells> {
-        self.above.clone().map(SingleCells::Some)
+        self.raised.cells().cloned().map(SingleCells::Some)
     }
 
     fn draw_whole(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError> {
         let bits = self.shadow.draw(to_sun);
-        if let Some(above) = &self.above {
+        if let Some(above) = self.raised.cells() {
             bits.words.iter_mut().zip(&above.words).for_each(|(bits, above)| *bits &= !above);
         }
         Ok(DrawnMask::Bits(bits))
     }
 
-    /// A ray for each cell, with the faces of the whole scene in a tree: the buckets of a few points would not pay for the
-    /// sorting of all faces.
-    fn shaded_of(&mut self, to_sun: DVec3, asked: &[CellWord]) -> Result<Vec<u64>, ShadowError> {
+    /// By rays: the buckets of a few points would not pay for the sorting of all faces. What the points see at the two
+    /// instants is the buckets'; where a ray decides otherwise a change is found a moment earlier or later.
+    fn changes(&mut self, cells: &DifferingCells<'_>, rows: Range<usize>) -> Result<Vec<LightChange>, ShadowError> {
         let Projected { raised, scene, raster_from_local, tile, rays, .. } = self;
         let rays = rays.get_or_insert_with(|| RayCaster::new(&scene.casters, reach(scene, &View::Plan(tile.plan))));
-        let (shear, local_from_raster) = (Shear::along(to_sun), raster_from_local.inverse());
-        let is_blocked = |at: DVec3| rays.blocked(local_from_raster.transform_point3(at), &shear);
-        Ok(raised.shaded_of(to_sun, asked, is_blocked))
+        let local_from_raster = raster_from_local.inverse();
+        let judged = |row: usize, column: usize| {
+            let (at, normal) = raised.judged(row, column);
+            Some((local_from_raster.transform_point3(at), normal))
+        };
+        Ok(cells.search(rows, rays, judged))
     }
 
     fn turn_to_tile(&mut self, tile: Tile) -> Result<bool, ShadowError> {
@@ -113,7 +113,6 @@ impl Technique for Projected {
         // what the last tile took goes before the next one's
         self.raised = RaisedCells::none(self.scene.casters.clone());
         self.raised = RaisedCells::new(&self.scene, tile, &self.raster_from_local);
-        self.above = self.raised.cells(tile.size);
         self.tile = tile;
         Ok(true)
     }

@@ -18,7 +18,7 @@ use super::flat::{Clumps, Judged, RasterBounds};
 use super::plan_surface::highest;
 use super::{JUDGED_ABOVE_M, Scene, seen_normal};
 use crate::mesh::Mesh;
-use crate::view::{Bits, CellWord, Surface, Tile};
+use crate::view::{Bits, Surface, Tile};
 use buckets::{BANDS, Buckets, SortedPoints};
 use falling_face::FallingFace;
 use glam::{DAffine3, DVec2, DVec3, DVec4, Vec3Swizzles};
@@ -38,8 +38,9 @@ pub(super) struct RaisedCells {
     normals: Vec<DVec3>,
     /// Where each row's points begin; one longer than the tile has rows.
     row_first: Vec<usize>,
-    /// Words of bits in a row of the tile.
-    in_row: usize,
+    /// The cells, and how many points there are before those of each word.
+    cells: Arc<Bits>,
+    word_first: Vec<u32>,
     /// A box around the points.
     bounds: RasterBounds,
     faces: Mesh,
@@ -75,7 +76,8 @@ impl RaisedCells {
             normal_of: Vec::new(),
             normals: Vec::new(),
             row_first: vec![0],
-            in_row: 1,
+            cells: Arc::new(Bits::new(1, 0)),
+            word_first: Vec::new(),
             bounds: RasterBounds::NONE,
             faces,
             shaded: Vec::new(),
@@ -88,7 +90,6 @@ impl RaisedCells {
         let Scene { casters, receivers, ground } = scene;
         let mut number = vec![u32::MAX; receivers.faces.len()];
         let mut raised = RaisedCells::none(casters.clone());
-        raised.in_row = tile.size[0].div_ceil(64) as usize;
         if receivers.faces.is_empty() {
             return raised;
         }
@@ -119,7 +120,25 @@ impl RaisedCells {
             raised.row_first.push(raised.points.len());
         }
         raised.shaded.resize_with(raised.points.len(), AtomicU8::default);
+        raised.find_cells(tile.size);
         raised
+    }
+
+    /// Finds the cells of the points, of a tile of so many columns and rows.
+    fn find_cells(&mut self, [width, height]: [u32; 2]) {
+        let mut cells = Bits::new(width, height);
+        let in_row = cells.in_row();
+        for (row, words) in cells.words.chunks_mut(in_row).enumerate() {
+            for column in &self.columns[self.row_first[row]..self.row_first[row + 1]] {
+                words[*column as usize / 64] |= 1 << (column % 64);
+            }
+        }
+        let mut next = 0;
+        for word in &cells.words {
+            self.word_first.push(next);
+            next += word.count_ones();
+        }
+        self.cells = Arc::new(cells);
     }
 
     /// Sets the bits of the raised cells, in the shadow of the casters, whose vertices are falling and whose faces are in
@@ -140,37 +159,17 @@ impl RaisedCells {
         self.mark(bits);
     }
 
-    /// The cells, of a tile of so many columns and rows; none where there are none.
-    pub(super) fn cells(&self, [width, height]: [u32; 2]) -> Option<Arc<Bits>> {
-        let mut cells = Bits::new(width, height);
-        for (row, words) in cells.words.chunks_mut(self.in_row).enumerate().take(self.row_first.len() - 1) {
-            for column in &self.columns[self.row_first[row]..self.row_first[row + 1]] {
-                words[*column as usize / 64] |= 1 << (column % 64);
-            }
-        }
-        (!self.points.is_empty()).then(|| Arc::new(cells))
+    /// The cells; none where there are none.
+    pub(super) fn cells(&self) -> Option<&Arc<Bits>> {
+        (!self.points.is_empty()).then_some(&self.cells)
     }
 
-    /// Of some raised cells those that are in shadow, each judged by itself: whether anything stands between a point (column,
-    /// row, height) and the sun.
-    pub(super) fn shaded_of(
-        &self,
-        to_sun: DVec3,
-        asked: &[CellWord],
-        is_blocked: impl Fn(DVec3) -> bool + Sync,
-    ) -> Vec<u64> {
-        let away: Vec<bool> = self.normals.iter().map(|normal| normal.dot(to_sun) <= 0.0).collect();
-        let shaded = |asked: &CellWord| {
-            let (row, first) = asked.place(self.in_row);
-            let of_row = self.row_first[row]..self.row_first[row + 1];
-            let begin =
-                of_row.start + self.columns[of_row.clone()].partition_point(|column| (*column as usize) < first);
-            let of_word = (begin..of_row.end).map(|at| (at, self.columns[at] as usize - first));
-            let asked = of_word.take_while(|(_, bit)| *bit < 64).filter(|(_, bit)| asked.cells >> bit & 1 == 1);
-            let is_shaded = |at: usize| away[self.normal_of[at] as usize] || is_blocked(self.points[at]);
-            asked.fold(0, |shaded, (at, bit)| shaded | u64::from(is_shaded(at)) << bit)
-        };
-        asked.par_iter().map(shaded).collect()
+    /// Where one of the cells is judged: column, row and height; and the normal there.
+    pub(super) fn judged(&self, row: usize, column: usize) -> (DVec3, DVec3) {
+        let word = row * self.cells.in_row() + column / 64;
+        let before = self.cells.words[word] & !(u64::MAX << (column % 64));
+        let at = (self.word_first[word] + before.count_ones()) as usize;
+        (self.points[at], self.normals[self.normal_of[at] as usize])
     }
 
     /// How many points were held against a face under the last sun, each as often as it was.

@@ -1,30 +1,28 @@
-//! When texels change between two instants: by halving, with a ray a texel and moment, from where the neighbour changed.
+//! When texels change between two instants: patch by patch, searched as cells of a plan are ([`crate::shadow::changes`]).
 
-use super::query::raster;
-use super::{PatchJudge, PatchJudgements, SoftTexture, count, work_of};
-use crate::mesh::patches::Patch;
-use crate::shadow::JUDGED_ABOVE_M;
-use crate::shadow::ShadowError;
-use crate::shadow::ray_cast::Shear;
+use super::{PatchJudge, PatchJudgements, SoftTexture, count};
+use crate::mesh::patches::{Patch, Texel};
+use crate::shadow::changes::{ChangeSearch, OpenPoint};
 use crate::shadow::soft_texture::Sample;
+use crate::shadow::{JUDGED_ABOVE_M, ShadowError};
 use glam::DVec3;
 use rayon::prelude::*;
+use std::ops::Range;
 
-/// A moment between two instants, or one of them.
-#[derive(Debug)]
-pub struct Moment {
-    /// Where the sun's centre stands.
-    pub to_sun: DVec3,
-    /// Seconds since the first instant for which the first one's light counts where it changes after this moment, and before
-    /// the next; of the last one all seconds.
-    pub secs_before_change: u32,
-}
+/// One task searches patches of so many texels, or a larger one.
+const RUN: usize = 1 << 12;
+/// Texels are searched in squares of so many a side, as many as a beam has rays.
+const SIDE: u16 = 8;
 
-/// The rays of a patch to the sun at one moment.
-struct PatchRays {
-    /// From a texel's point to where it is judged.
-    lift: DVec3,
-    shear: Shear,
+/// The time between two instants.
+pub struct TextureGap<'a, S> {
+    /// Which texels see the sun at its ends.
+    pub ends: [&'a [u8]; 2],
+    /// To the sun at the moments, from the one instant to the other.
+    pub suns: &'a [DVec3],
+    /// For how many seconds since the first instant a texel is as it was then that changes after a moment, and before the
+    /// next one; of the last one all seconds.
+    pub secs_before_change: S,
 }
 
 impl SoftTexture {
@@ -47,92 +45,90 @@ impl SoftTexture {
             .for_each(|(sum, seen)| *sum += u32::from(*seen) * secs);
     }
 
-    /// Adds the seconds between two instants: all of them to texels that see the sun at both, and to those that see it at one
-    /// of them the part that they are found to. The moments begin and end with the instants.
-    pub fn add_between(&mut self, [before, after]: [&[u8]; 2], moments: &[Moment]) {
-        let [_, .., last] = moments else { return };
-        let all_secs = last.secs_before_change;
+    /// Adds the seconds between two instants to the texels of some patches: all of them to those that see the sun at both, and
+    /// to those that see it at one of them the part that they are found to.
+    pub fn add_between(&mut self, patches: Range<usize>, gap: &TextureGap<'_, impl Fn(u32) -> u32 + Sync>) {
         let mut sums = std::mem::take(&mut self.sums);
         let judge = self.judge();
-        work_of(judge.sought.patches, &mut sums).into_par_iter().for_each(|(_, patch, sums)| {
-            let texels = patch.texels.start as usize..patch.texels.end as usize;
-            let (before, after) = (&before[texels.clone()], &after[texels]);
-            let mut search = TexelSearch {
-                judge: &judge,
-                patch,
-                moments,
-                rays: Vec::new(),
-                last: moments.len() / 2,
-                shift: 0,
-                cast: 0,
-            };
-            for (texel, (sum, ends)) in sums.iter_mut().zip(before.iter().zip(after)).enumerate() {
-                *sum += match ends {
-                    (0, 0) => 0,
-                    (1, 1) => all_secs,
-                    (before, _) => {
-                        let secs = search.secs_before_change(texel, *before == 1);
-                        if *before == 1 { secs } else { all_secs - secs }
-                    }
-                };
+        let list = &judge.sought.patches.list[patches];
+        let mut rest = match list {
+            [first, .., last] => &mut sums[first.texels.start as usize..last.texels.end as usize],
+            [only] => &mut sums[only.texels.start as usize..only.texels.end as usize],
+            [] => &mut [],
+        };
+        let mut runs = Vec::new();
+        let mut left = list;
+        while !left.is_empty() {
+            let (mut patches, mut texels) = (0, 0);
+            while texels < RUN && patches < left.len() {
+                texels += left[patches].texels.len();
+                patches += 1;
             }
-            count(judge.counts, PatchJudgements { rays: search.cast, ..PatchJudgements::default() });
-        });
+            let (run, later) = left.split_at(patches);
+            let (sums, later_sums) = rest.split_at_mut(texels);
+            runs.push((run, sums));
+            (left, rest) = (later, later_sums);
+        }
+        runs.into_par_iter().for_each(|(patches, sums)| judge.add_between(patches, sums, gap));
         self.sums = sums;
     }
-}
 
-/// The search on one patch.
-struct TexelSearch<'a> {
-    judge: &'a PatchJudge<'a>,
-    patch: &'a Patch,
-    moments: &'a [Moment],
-    /// Per moment, once a texel asks: none where the patch looks away from the sun.
-    rays: Vec<Option<Option<PatchRays>>>,
-    /// After which moment the last texel changed, and how many moments later than the one before it.
-    last: usize,
-    shift: isize,
-    cast: u64,
-}
-
-impl TexelSearch<'_> {
-    /// For how many seconds a texel that sees the sun at one end alone is as it was at the first.
-    fn secs_before_change(&mut self, texel: usize, is_lit_before: bool) -> u32 {
-        let (mut from, mut to) = (0, self.moments.len() - 1);
-        // where a shadow that goes on as evenly over the texels comes by, then ever farther from there, until the change is
-        // between two moments
-        let guess = self.last.saturating_add_signed(self.shift);
-        let (mut next, mut stride) = (guess.clamp(1, to.saturating_sub(1).max(1)), 1);
-        while to - from > 1 {
-            if self.is_lit(texel, next) == is_lit_before {
-                from = next;
-                next = if to + 1 == self.moments.len() { from + stride } else { to };
-            } else {
-                to = next;
-                next = if from == 0 { to.saturating_sub(stride) } else { from };
-            }
-            stride *= 2;
-            if next <= from || next >= to {
-                next = from + (to - from) / 2;
+    /// The patches in parts that take about as long as an instant of so many texels, or of one larger patch.
+    pub fn parts(&self, texels: usize) -> Vec<Range<usize>> {
+        let mut parts = Vec::new();
+        let (mut first, mut so_far) = (0, 0);
+        for (at, patch) in self.patches.list.iter().enumerate() {
+            so_far += patch.texels.len();
+            if so_far >= texels || at + 1 == self.patches.list.len() {
+                parts.push(first..at + 1);
+                (first, so_far) = (at + 1, 0);
             }
         }
-        let shift = from as isize - self.last as isize;
-        self.shift = if shift.unsigned_abs() < self.moments.len() / 4 { shift } else { 0 };
-        self.last = from;
-        self.moments[from].secs_before_change
+        parts
+    }
+}
+
+impl PatchJudge<'_> {
+    /// The same, to the sums of patches that follow one another.
+    fn add_between(&self, patches: &[Patch], sums: &mut [u32], gap: &TextureGap<'_, impl Fn(u32) -> u32>) {
+        let Some(first) = patches.first().map(|patch| patch.texels.start as usize) else { return };
+        let last_moment = gap.suns.len().saturating_sub(1) as u32;
+        let all_secs = (gap.secs_before_change)(last_moment);
+        let [before, after] = gap.ends.map(|seen| &seen[first..first + sums.len()]);
+        let mut search = ChangeSearch::new(self.rays, gap.suns);
+        let mut differ: Vec<(usize, Texel)> = Vec::new();
+        for patch in patches {
+            let texels = patch.texels.start as usize - first..patch.texels.end as usize - first;
+            for (number, texel) in texels.zip(self.texels(patch)) {
+                match [before[number], after[number]] {
+                    [0, 0] => {}
+                    [1, 1] => sums[number] += all_secs,
+                    _ => differ.push((number, *texel)),
+                }
+            }
+            differ.sort_unstable_by_key(|(_, texel)| (texel.row / SIDE, texel.column / SIDE, texel.row, texel.column));
+            let square = |(_, texel): &(usize, Texel)| (texel.row / SIDE, texel.column / SIDE);
+            for texels in differ.chunk_by(|one, other| square(one) == square(other)) {
+                for (number, texel) in texels {
+                    search.add(self.open(patch, *texel, *number, before[*number] == 0));
+                }
+                search.search();
+            }
+            differ.clear();
+        }
+        let (changes, rays) = search.finish();
+        for change in changes {
+            let secs = (gap.secs_before_change)(change.moment);
+            sums[change.number] += if change.was_shaded { all_secs - secs } else { secs };
+        }
+        count(self.counts, PatchJudgements { rays, ..PatchJudgements::default() });
     }
 
-    fn is_lit(&mut self, texel: usize, moment: usize) -> bool {
-        let TexelSearch { judge, patch, moments, rays, cast, .. } = self;
-        rays.resize_with(moments.len(), || None);
-        let rays = rays[moment].get_or_insert_with(|| {
-            let raster = raster(patch, judge.sought.patches.cell, moments[moment].to_sun.extend(0.0))?;
-            let lift = judge.tie(patch, &raster) + raster.plane.truncate() * JUDGED_ABOVE_M;
-            Some(PatchRays { lift, shear: Shear::along(moments[moment].to_sun) })
-        });
-        let Some(PatchRays { lift, shear }) = rays else { return false };
-        *cast += 1;
-        let point = judge.sought.patches.point(patch, judge.texels(patch)[texel]);
-        !judge.rays.blocked(point + *lift, shear)
+    /// A texel that changes.
+    fn open(&self, patch: &Patch, texel: Texel, number: usize, is_shaded: bool) -> OpenPoint {
+        let normal = patch.plane.truncate();
+        let place = self.sought.patches.point(patch, texel) + self.tie(patch);
+        let lift = normal * JUDGED_ABOVE_M;
+        OpenPoint { number, at: place + lift, normal, behind: patch.two_sided.then_some(place - lift), is_shaded }
     }
 }
