@@ -6,10 +6,11 @@ mod said;
 use gnomon::choice::{Engine, Method, Receivers};
 use gnomon::site::typed::resolution_secs;
 use gnomon::site::{Overrides, Site};
-use gnomon::study::{self, Event, PatchOutcome, Wants, patches};
+use gnomon::study::{self, Event, PatchOutcome, StudyError, TiledStudy, Wants, in_tiles, patches};
 use gnomon::view::Bits;
 use std::ops::ControlFlow;
 use std::path::Path;
+use std::time::Duration;
 
 const SITES: [&str; 3] = ["headquarters", "industry", "tower"];
 const MINUTES: usize = 60;
@@ -110,6 +111,41 @@ fn every_exact_technique_finds_them() {
         let (technique, engine) = (Some(method), Some(engine));
         let asked = Overrides { size: Some(48), receivers: Some(receivers), technique, engine, ..Overrides::default() };
         are_those_of_minutes("tower", &asked);
+    }
+}
+
+#[test]
+fn work_that_ends_between_two_instants_goes_on_from_the_first_of_them() {
+    for receivers in [Receivers::Ground, Receivers::Top] {
+        let (receivers, engine) = (Some(receivers), Some(Engine::Cpu));
+        let asked = Overrides { size: Some(64), receivers, engine, step_secs: secs("1h"), ..Overrides::default() };
+        let site = sample("tower", asked);
+        let wants = Wants { keep_every: Some(Duration::from_secs(3600)), ..Wants::default() };
+        let prepared = || TiledStudy::new(&site, &wants, &mut |_| ControlFlow::Continue(())).expect("a study");
+        let (mut drawn, mut kept) = (0, None);
+        let ended = in_tiles(prepared(), None, &mut |event| {
+            match event {
+                Event::Drawn { .. } => drawn += 1,
+                Event::Kept(unfinished) => kept = Some(unfinished.clone()),
+                Event::Between if drawn == 2 => return ControlFlow::Break(()),
+                _ => {}
+            }
+            ControlFlow::Continue(())
+        });
+        assert!(matches!(ended, Err(StudyError::Interrupted)));
+        assert_eq!(drawn, 2, "it ends before the third instant");
+        let kept = kept.expect("what was done");
+        assert_eq!(kept.done, 2);
+        let mut summed = None;
+        in_tiles(prepared(), Some(kept), &mut |event| {
+            if let Event::Summed(shaded) = event {
+                summed = Some(shaded);
+            }
+            ControlFlow::Continue(())
+        })
+        .expect("hours");
+        let summed: Vec<u64> = summed.expect("sums").iter().collect();
+        assert!(summed == study(&site).0, "it goes on to the same hours");
     }
 }
 

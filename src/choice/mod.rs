@@ -10,7 +10,7 @@ mod words;
 
 pub use fit::Misfit;
 #[doc(hidden)]
-pub use table::{MAP_SIZE, MethodRow, Promise, TABLE, Truth};
+pub use table::{MAP_SIZE, MethodRow, Promise, SinglySearched, TABLE, Truth};
 pub use table::{Method, Setting, Subject};
 #[doc(hidden)]
 pub use words::{ChoiceError, listed};

@@ -92,6 +92,18 @@ impl Setting {
     }
 }
 
+/// What a technique searches singly between two instants, and only where these differ. All else it draws at each moment, so
+/// that nothing is missed there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SinglySearched {
+    /// It draws all.
+    Nothing,
+    /// What a plan sees above the ground.
+    AboveGround,
+    /// All cells or texels.
+    Everything,
+}
+
 /// The truth that a technique is compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Truth {
@@ -348,6 +360,15 @@ impl MethodRow {
     /// rounding or what its map misses, and the sun is a point.
     pub fn finds_changes(&self, subject: Subject, sun_samples: Option<u32>) -> bool {
         sun_samples.is_none() && (subject == Subject::Patches || self.promise != Promise::Near)
+    }
+
+    /// What it searches singly between two instants, on the machine that draws, where it finds changes.
+    pub fn searches_singly(&self, engine: Engine, subject: Subject) -> SinglySearched {
+        match (engine, self.method, subject) {
+            (Engine::Gpu, ..) | (_, Method::Projected, Subject::Ground) => SinglySearched::Nothing,
+            (_, Method::Projected, Subject::Top) => SinglySearched::AboveGround,
+            _ => SinglySearched::Everything,
+        }
     }
 
     /// Whether it uses an option.

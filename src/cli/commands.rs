@@ -8,7 +8,7 @@ use super::output::say;
 use super::progress::Progress;
 use super::technique::showing_mask;
 use super::wrong_use::WrongUse;
-use crate::choice::listed;
+use crate::choice::{Receivers, listed};
 use crate::deliver::instant::{self, InstantRequest};
 use crate::deliver::{Sink, WrittenFiles};
 use crate::export::check::{self, CheckedMesh, TableExtent};
@@ -19,7 +19,6 @@ use crate::message::Message;
 use crate::profile::{Provenance, Statistics};
 use crate::site::{Ground, LoadedMesh, LoadedSun, Overrides, Site, load_mesh, load_sun};
 use crate::study::{Event, Stopwatch};
-use crate::sun::SunTrack;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -170,8 +169,9 @@ fn check_one(asked: &CheckArgs, path: &Path, beside: &[PathBuf]) -> anyhow::Resu
 }
 
 /// How hours between a study's instants were found, in a line.
-pub(super) fn between(drawn: &Provenance, track: &SunTrack) -> String {
-    report::between_instants(drawn, track).map_or_else(String::new, |said| format!("{said}\n"))
+pub(super) fn between(drawn: &Provenance, receivers: Receivers, site: &Site) -> String {
+    report::between_instants(drawn, (receivers, &site.ground), &site.track)
+        .map_or_else(String::new, |said| format!("{said}\n"))
 }
 
 /// What drew, and the ground: two lines, the last without a line end.

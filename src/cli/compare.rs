@@ -64,7 +64,7 @@ pub(super) fn compare(asked: &CompareArgs) -> anyhow::Result<()> {
     let mut text = lines(&answer.written);
     // writing to a String cannot fail
     let _ = writeln!(text, "{}", drawn_by(&answer.drawn, &pair.after.ground));
-    text.push_str(&between(&answer.drawn, &pair.after.track));
+    text.push_str(&between(&answer.drawn, pair.after.receivers, &pair.after));
     text.push_str(&answer.table);
     say(&text)
 }

@@ -5,6 +5,7 @@ use super::commands::{between, drawn_by, lines};
 use super::output::{say, who};
 use super::progress::Progress;
 use super::wrong_use::WrongUse;
+use crate::choice::Receivers;
 use crate::deliver::patches::{PatchesRequest, patches as deliver};
 use crate::deliver::{Folder, Sink};
 use crate::site::Site;
@@ -43,7 +44,7 @@ pub(super) fn profile(asked: &ProfileArgs, site: &Site, watch: Stopwatch) -> any
     let mut text = lines(&answer.written);
     // writing to a String cannot fail
     let _ = writeln!(text, "{}", drawn_by(&answer.drawn, &site.ground));
-    text.push_str(&between(&answer.drawn, &site.track));
+    text.push_str(&between(&answer.drawn, Receivers::Patches, &site));
     text.push_str(&answer.summary);
     say(&text)
 }

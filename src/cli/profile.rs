@@ -44,7 +44,7 @@ pub(super) fn profile(asked: &ProfileArgs) -> anyhow::Result<()> {
         let _ = writeln!(text, "{} ({} masks)", folder.display(), answer.masks);
     }
     let _ = writeln!(text, "{}", drawn_by(&answer.drawn, &site.ground));
-    text.push_str(&between(&answer.drawn, &site.track));
+    text.push_str(&between(&answer.drawn, site.receivers, &site));
     text.push_str(&answer.statistics.as_ref().map(took).unwrap_or_default());
     text.push_str(&extent(&answer, &site));
     say(&text)

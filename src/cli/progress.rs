@@ -73,6 +73,7 @@ impl Progress {
             | Event::Prepared { .. }
             | Event::Tile(_)
             | Event::Summed(_)
+            | Event::Between
             | Event::Kept(_)
             | Event::Stage(_) => {}
             Event::Drawn { index, count, time, .. } => {

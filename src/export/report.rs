@@ -5,10 +5,10 @@
 
 use super::patches::PatchContext;
 use super::{ExportError, figure};
-use crate::choice::{Filter, Finder, Receivers, Settings};
+use crate::choice::{Filter, Finder, Receivers, Settings, SinglySearched, Subject};
 use crate::message::{Message, Words};
 use crate::profile::{Profile, Provenance, Statistics, Timings};
-use crate::site::Ground;
+use crate::site::{Ground, GroundKind};
 use crate::sun::{Air, Day, Instant, Place, Polar, SunTrack, Zone};
 use crate::sunlight::Exposure;
 use crate::view::{Grid, View};
@@ -263,18 +263,35 @@ pub(super) fn plan_report<'a>(
 
 /// How hours were found between a study's instants, without a stop; none where no study is, and where instants are as near
 /// together as times of change would be found.
-pub fn between_instants(drawn: &Provenance, track: &SunTrack) -> Option<String> {
+pub fn between_instants(
+    drawn: &Provenance,
+    (receivers, ground): (Receivers, &Ground),
+    track: &SunTrack,
+) -> Option<String> {
     let step = figure::duration(track.step_secs);
+    let subject = match (receivers, ground.kind) {
+        (Receivers::Top, _) => Subject::Top,
+        (Receivers::Ground, GroundKind::Plane) => Subject::Ground,
+        (Receivers::Ground, GroundKind::Terrain) => Subject::Terrain,
+        (Receivers::Patches, _) => Subject::Patches,
+    };
     if track.instants.len() < 2 {
         return None;
     }
     match drawn.resolution_secs {
         0 => Some(format!("hours of instants {step} apart, and of nothing between them")),
         secs if secs >= track.step_secs => None,
-        secs => Some(format!(
-            "changes of light between instants found to {}; light or shade shorter than {step} may be missed",
-            figure::duration(secs)
-        )),
+        secs => {
+            let found = figure::duration(secs);
+            let missed = match drawn.technique.row().searches_singly(drawn.engine, subject) {
+                SinglySearched::Nothing => format!("light or shade shorter than {found} may be missed"),
+                SinglySearched::AboveGround => {
+                    format!("above the ground light or shade shorter than {step} may be missed")
+                }
+                SinglySearched::Everything => format!("light or shade shorter than {step} may be missed"),
+            };
+            Some(format!("changes of light between instants found to {found}; {missed}"))
+        }
     }
 }
 
@@ -305,7 +322,7 @@ fn drawn_report<'a>(
         adapter: drawn.adapter.as_deref(),
         settings: settings_report(&drawn.settings),
         resolution_secs: drawn.resolution_secs,
-        between_instants: between_instants(drawn, track),
+        between_instants: between_instants(drawn, (receivers, &ground), track),
         refraction: track.refraction,
         refraction_celsius: refracted(air.temperature_c),
         refraction_millibar: refracted(air.pressure_hpa),

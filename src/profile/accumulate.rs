@@ -5,7 +5,7 @@ use crate::gpu::layout::WeightUniforms;
 use crate::gpu::targets::{NUMBER, whole};
 use crate::gpu::{Gpu, readback, shaders};
 use crate::shadow::{DrawnMask, ShadowError};
-use crate::view::{Bits, CellWord, Mask};
+use crate::view::{Bits, Mask};
 use rayon::prelude::*;
 use std::sync::Arc;
 use wgpu::*;
@@ -159,22 +159,20 @@ impl Sum {
         self.add(&DrawnMask::Bits(&before.with(after, |before, after| before & after)), secs)
     }
 
-    /// Adds a part of the last gap's seconds to single cells of a raster.
+    /// Adds parts of the last gap's seconds to single cells, counted along the rows: to each its own.
     ///
     /// # Errors
     /// As [`Sum::add_gap`].
-    pub fn add_in_gap(&mut self, raster: &Bits, cells: &[CellWord], secs: u32) -> Result<(), ShadowError> {
-        let (width, more) = (raster.width as usize, 255 * secs);
+    pub fn add_in_gap(&mut self, cells: &[(usize, u32)]) -> Result<(), ShadowError> {
         if let RunningSum::Memory(sum) = &mut self.running {
-            for word in cells {
-                let (row, column) = word.place(raster.in_row());
-                word.bits().for_each(|bit| sum[row * width + column + bit as usize] += more);
-            }
+            cells.iter().for_each(|&(cell, secs)| sum[cell] += 255 * secs);
             return Ok(());
         }
-        let mut bits = Bits::new(raster.width, raster.height);
-        cells.iter().for_each(|word| bits.words[word.word as usize] |= word.cells);
-        self.add_to_running(&DrawnMask::Bits(&bits), secs)
+        // only the processor searches single cells
+        self.pour()?;
+        let poured = self.poured.get_or_insert_default();
+        cells.iter().for_each(|&(cell, secs)| poured[cell] += 255 * u64::from(secs));
+        Ok(())
     }
 
     fn add_to_running(&mut self, mask: &DrawnMask<'_>, secs: u32) -> Result<(), ShadowError> {

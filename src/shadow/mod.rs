@@ -5,6 +5,7 @@
 
 mod batch;
 pub(crate) mod bindings;
+mod changes;
 mod counting;
 mod flat;
 mod flush;
@@ -37,11 +38,13 @@ pub mod walls;
 use crate::gpu::{Gpu, GpuError, readback};
 use crate::mesh::Mesh;
 use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display};
-use crate::view::{Bits, CellWord, FragmentCounts, Mask, Surface, Tile, View};
+use crate::view::{Bits, FragmentCounts, Mask, Surface, Tile, View};
 use glam::{DVec3, DVec4};
+use std::ops::Range;
 use std::sync::Arc;
 
 #[doc(hidden)]
+pub use changes::{DifferingCells, LightChange};
 pub use flush::FlushFaces;
 #[doc(hidden)]
 pub use plan_surface::{PlanSurface, plan_surface};
@@ -142,9 +145,8 @@ pub trait Technique {
     ///
     /// # Errors
     /// As [`Technique::draw`].
-    fn shaded_of(&mut self, to_sun: DVec3, asked: &[CellWord]) -> Result<Vec<u64>, ShadowError> {
-        let bits = self.draw(to_sun)?.bits()?;
-        Ok(asked.iter().map(|asked| bits.words[asked.word as usize]).collect())
+    fn changes(&mut self, _cells: &DifferingCells<'_>, _rows: Range<usize>) -> Result<Vec<LightChange>, ShadowError> {
+        Ok(Vec::new())
     }
 
     /// Turns to another view of the same scene, and keeps what does not depend on the view. Returns `false` if the

@@ -8,13 +8,16 @@
 //! rounding could make it a hit. Squares of eight by eight cells are traced at once, as a beam of parallel rays.
 
 use super::flush::FlushFaces;
-use super::{DrawnMask, JUDGED_ABOVE_M, Scene, ShadowError, SingleCells, Technique, seen_normal};
+use super::{
+    DifferingCells, DrawnMask, JUDGED_ABOVE_M, LightChange, Scene, ShadowError, SingleCells, Technique, seen_normal,
+};
 use crate::mesh::Mesh;
 use crate::sun::disc;
-use crate::view::{Camera, CellWord, Elevation, Grid, Lens, Mask, Surface, Tile, View};
+use crate::view::{Camera, Elevation, Grid, Lens, Mask, Surface, Tile, View};
 use arrayvec::ArrayVec;
 use glam::{DVec2, DVec3, DVec4};
 use rayon::prelude::*;
+use std::ops::Range;
 use std::sync::Arc;
 
 #[doc(hidden)]
@@ -463,17 +466,14 @@ impl Technique for RayCast {
         Some(SingleCells::All)
     }
 
-    fn shaded_of(&mut self, to_sun: DVec3, asked: &[CellWord]) -> Result<Vec<u64>, ShadowError> {
-        let suns = self.suns(to_sun);
-        let Mask { width, .. } = self.mask;
-        let in_row = width.div_ceil(64) as usize;
-        let shaded = |asked: &CellWord| {
-            let (row, column) = asked.place(in_row);
-            let first = row * width as usize + column;
-            let is_shaded = |bit: &u32| self.share(first + *bit as usize, &suns) <= 127;
-            asked.bits().filter(is_shaded).fold(0, |shaded, bit| shaded | 1 << bit)
+    /// To the sun's centre: of its disc no changes are searched.
+    fn changes(&mut self, cells: &DifferingCells<'_>, rows: Range<usize>) -> Result<Vec<LightChange>, ShadowError> {
+        let width = self.mask.width as usize;
+        let judged = |row: usize, column: usize| {
+            let cell = Cell { at: row * width + column, column: column as u32, row: row as u32 };
+            self.judged(&mut self.normals(), cell)
         };
-        Ok(asked.par_iter().map(shaded).collect())
+        Ok(cells.search(rows, &self.casters, judged))
     }
 
     fn turn_to_tile(&mut self, tile: Tile) -> Result<bool, ShadowError> {

@@ -64,6 +64,8 @@ pub enum Event<'a> {
         /// Which cells are in shadow, if that is wanted and the sun is up.
         bits: Option<&'a Bits>,
     },
+    /// Some of the time before the next instant was searched. There is nothing to say of it; a listener may end the work.
+    Between,
     /// The state so far. A listener that keeps it can continue the study later.
     Kept(&'a Unfinished),
     /// One more stage is done: of making files after the study, or of judging.

@@ -158,7 +158,17 @@ fn add_instants(
     }
     let (mut kept, mut was_kept) = (Instant::now(), done > 0);
     for (index, instant) in site.track.instants.iter().enumerate().skip(done) {
-        sum.add(index)?;
+        // the sums of a gap that is left in its midst are of no use
+        let keeps = keeping.filter(|_| sum.searches_before(index));
+        let before_gap = keeps.map(|_| sum.so_far()).transpose()?;
+        let added = sum.add(index, on_event);
+        if let (Err(StudyError::Interrupted), Some(sums), Some(Keeping { number, .. })) = (&added, before_gap, keeping)
+        {
+            let (study, shaded) = (number, sums.into());
+            let unfinished = Unfinished { study, tiles: 1, done: index, shaded, statistics: None };
+            tell(on_event, Event::Kept(&unfinished))?;
+        }
+        added?;
         let told = tell(on_event, Event::Drawn { index, count, time: instant.time, mask: None, bits: None });
         let is_last = index + 1 == count && was_kept;
         if let Some(Keeping { every, number }) = keeping

@@ -247,7 +247,14 @@ impl TileWork<'_> {
         }
         for (at, instant) in instants.iter().enumerate().skip(done_of_it) {
             let index = before + at;
-            let (mask, bits) = sum.add(at, technique, self.wants)?;
+            // the sums of a gap that is left in its midst are of no use
+            let keeps = self.wants.keep_every.is_some() && sum.searches_before(at);
+            let before_gap = keeps.then(|| sum.so_far()).transpose()?;
+            let added = sum.add(at, technique, self.wants, on_event);
+            if let (Err(StudyError::Interrupted), Some(shaded)) = (&added, before_gap) {
+                self.keep(index, shaded, on_event)?;
+            }
+            let (mask, bits) = added?;
             self.count(instant, technique)?;
             let (mask, bits) = (mask.as_ref(), bits.as_ref());
             let told = tell(on_event, Event::Drawn { index, count, time: instant.time, mask, bits });

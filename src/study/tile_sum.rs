@@ -4,13 +4,13 @@
 //! missed. Cells that it can test singly are tested only if the two instants differ, by bisection.
 
 use super::gaps::{Gap, Gaps};
-use super::{StudyError, Wants, night};
+use super::{Event, OnEvent, StudyError, Wants, night, tell};
 use crate::gpu::Gpu;
 use crate::profile::Shaded;
 use crate::profile::accumulate::Sum;
-use crate::shadow::{DrawnMask, ShadowError, SingleCells, Technique};
+use crate::shadow::{DifferingCells, DrawnMask, LightChange, ShadowError, SingleCells, Technique};
 use crate::site::Site;
-use crate::view::{Bits, CellWord, Mask, Tile, View};
+use crate::view::{Bits, Mask, Tile, View};
 use std::sync::Arc;
 
 /// The running sum of a tile.
@@ -35,12 +35,21 @@ impl<'a> TileSum<'a> {
         self.sum.begin_with(shaded, by_day.map(|instant| instant.weight_secs).sum());
     }
 
+    /// Whether the time before an instant is searched.
+    pub(super) fn searches_before(&self, at: usize) -> bool {
+        self.gaps.before(at).is_some()
+    }
+
     /// Adds an instant and the gap before it. Returns the instant's mask and its bits if they are wanted.
+    ///
+    /// # Errors
+    /// [`StudyError::Interrupted`] within the gap if the listener ends the work; the sum is of no use then.
     pub(super) fn add(
         &mut self,
         at: usize,
         technique: &mut dyn Technique,
         wants: &Wants,
+        on_event: &mut OnEvent<'_>,
     ) -> Result<(Option<Mask>, Option<Bits>), StudyError> {
         let instant = &self.site.track.instants[at];
         if instant.night {
@@ -48,7 +57,7 @@ impl<'a> TileSum<'a> {
         }
         let single = self.gaps.touch(at).then(|| technique.single_cells()).flatten();
         if single != Some(SingleCells::All) {
-            self.add_moments(at, technique)?;
+            self.add_moments(at, technique, on_event)?;
         }
         let begun = match (&single, self.before.take()) {
             (Some(single), before) if self.gaps.before(at).is_some() => match before {
@@ -68,7 +77,7 @@ impl<'a> TileSum<'a> {
                 self.add_bits(&after, own_secs)?;
                 self.add_bits(&bits.with(&after, |all, single| all & !single), among_secs)?;
                 if let (Some(gap), Some(before)) = (self.gaps.before(at), begun) {
-                    CellSearch { technique, gap, before: &before, sum: &mut self.sum }.add_gap(&after)?;
+                    CellSearch { technique, gap, sum: &mut self.sum }.add_gap([&before, &after], on_event)?;
                 }
                 self.before = Some((at, after));
             }
@@ -78,10 +87,16 @@ impl<'a> TileSum<'a> {
     }
 
     /// Adds what is drawn whole at the moments of the gap before an instant.
-    fn add_moments(&mut self, at: usize, technique: &mut dyn Technique) -> Result<(), StudyError> {
+    fn add_moments(
+        &mut self,
+        at: usize,
+        technique: &mut dyn Technique,
+        on_event: &mut OnEvent<'_>,
+    ) -> Result<(), StudyError> {
         for moment in self.gaps.before(at).iter().flat_map(Gap::moments) {
             let (to_sun, secs) = moment?;
             self.sum.add(&technique.draw_whole(to_sun)?, secs)?;
+            tell(on_event, Event::Between)?;
         }
         Ok(())
     }
@@ -106,6 +121,11 @@ impl<'a> TileSum<'a> {
     }
 }
 
+/// So many cells are searched before a listener is asked whether to go on: about what an instant takes.
+const CELLS_AT_ONCE: usize = 1 << 22;
+/// And no fewer rows, which are shared out among the processors.
+const FEWEST_ROWS: usize = 1 << 8;
+
 /// The search for the times at which cells change in a gap.
 struct CellSearch<'a> {
     technique: &'a mut dyn Technique,
@@ -128,19 +148,22 @@ impl CellSearch<'_> {
         if differ.is_empty() {
             return Ok(());
         }
-        let before: Vec<u64> = differ.iter().map(|differ| self.before.words[differ.word as usize]).collect();
-        if to - from == 1 {
-            let secs = self.gap.secs_before_change(from);
-            let [shaded, lit] = parted(differ, &before);
-            self.sum.add_in_gap(self.before, &shaded, secs)?;
-            return Ok(self.sum.add_in_gap(self.before, &lit, self.gap.secs() - secs)?);
+        let suns = (0..=self.gap.steps()).map(|step| self.gap.sun_at(step)).collect::<Result<Vec<_>, _>>()?;
+        let cells = DifferingCells { ends, suns: &suns };
+        let (height, rows) = (*height as usize, (CELLS_AT_ONCE / *width as usize).max(FEWEST_ROWS));
+        for first in (0..height).step_by(rows) {
+            let changes = self.technique.changes(&cells, first..(first + rows).min(height))?;
+            let shaded: Vec<(usize, u32)> = changes.iter().map(|change| self.shaded_secs(change)).collect();
+            self.sum.add_in_gap(&shaded)?;
+            tell(on_event, Event::Between)?;
         }
-        let middle = from + (to - from) / 2;
-        let shaded = self.technique.shaded_of(self.gap.sun_at(middle)?, differ)?;
-        let changed: Vec<u64> = shaded.iter().zip(&before).map(|(shaded, before)| shaded ^ before).collect();
-        let [earlier, later] = parted(differ, &changed);
-        self.halve([from, middle], &earlier)?;
-        self.halve([middle, to], &later)
+        Ok(())
+    }
+
+    /// How long a cell is in shadow that changes.
+    fn shaded_secs(&self, change: &LightChange) -> (usize, u32) {
+        let before = self.gap.secs_before_change(change.moment);
+        (change.number, if change.was_shaded { before } else { self.gap.secs() - before })
     }
 }
 

@@ -80,12 +80,6 @@ impl Bits {
         Bits { words, ..*self }
     }
 
-    /// The cells in which two rasters of the same size differ.
-    pub(crate) fn differing(&self, other: &Bits) -> Vec<CellWord> {
-        let differ = |(at, (one, other)): (usize, (&u64, &u64))| CellWord { word: at as u32, cells: one ^ other };
-        self.words.iter().zip(&other.words).enumerate().map(differ).filter(|word| word.cells != 0).collect()
-    }
-
     /// Copies a tile's cells to their place on the plan. A tile's first column must be a multiple of 64.
     pub fn paste(&mut self, tile: &Tile, part: &Bits) {
         let [left, top] = tile.first.map(|first| first as usize);

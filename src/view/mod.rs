@@ -19,8 +19,6 @@ pub use camera::Lens;
 pub use counts::{Decider, FragmentCounts};
 pub use elevation::{Elevation, Side};
 pub use grid::{Grid, Tile};
-#[doc(hidden)]
-pub use mask::CellWord;
 pub use mask::{Bits, Mask};
 #[doc(hidden)]
 pub use overlay::Overlay;

@@ -47,9 +47,15 @@ fn it_is_said_with_the_hours() {
     let profile = "profile . --engine cpu --size 40 --step 1h --write json";
     let json = |more: &str| serde_json::from_str::<Value>(&done(at, &format!("{profile} {more} --json"))).unwrap();
     let said = |json: &Value| (json["resolution_secs"].clone(), json["between_instants"].clone());
-    let missed = "light or shade shorter than 1 h may be missed";
-    let to_a_minute = format!("changes of light between instants found to 1 min; {missed}");
+    let found = "changes of light between instants found to 1 min; ";
+    let to_a_minute = format!("{found}above the ground light or shade shorter than 1 h may be missed");
     assert_eq!(said(&json("")), (60.into(), to_a_minute.clone().into()));
+    // drawn at every moment, and searched ray by ray
+    let missed = [("--receivers ground", "1 min"), ("--technique ray-cast", "1 h")];
+    for (more, shortest) in missed {
+        let words = format!("{found}light or shade shorter than {shortest} may be missed");
+        assert_eq!(said(&json(more)), (60.into(), words.into()), "{more}");
+    }
     let alone = "hours of instants 1 h apart, and of nothing between them";
     assert_eq!(said(&json("--resolution step")), (0.into(), alone.into()));
     assert_eq!(said(&json("--resolution 1h")), (3600.into(), Value::Null));

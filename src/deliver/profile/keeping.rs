@@ -273,7 +273,12 @@ impl StudyStore<'_> {
             }
             // after an error there is no state to continue from
             Event::Kept(done) if self.fault.is_none() => self.keep(done)?,
-            Event::Note(_) | Event::Kept(_) | Event::Stage(_) | Event::Resumes { .. } | Event::Prepared { .. } => {}
+            Event::Note(_)
+            | Event::Kept(_)
+            | Event::Stage(_)
+            | Event::Between
+            | Event::Resumes { .. }
+            | Event::Prepared { .. } => {}
         }
         Ok(())
     }

@@ -64,7 +64,9 @@ impl<T: Send + 'static> Work<T> {
                     }
                     _ => {}
                 }
-                context.request_repaint();
+                if !matches!(event, Event::Between) {
+                    context.request_repaint();
+                }
                 if heard.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             });
             // after a cancellation nobody receives this

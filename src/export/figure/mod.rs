@@ -294,7 +294,10 @@ fn panel<S>(scene: &FigureContext<S>, kicker: &str) -> Panel {
     if track.instants.len() > 1 {
         let (step, count) = (words::duration(track.step_secs), track.instants.len());
         facts.push(("Step", format!("{step}, {count} instants")));
-        facts.extend(report::between_instants(scene.drawn, track).map(|said| ("Between", said)));
+        facts.extend(
+            report::between_instants(scene.drawn, (scene.receivers, &scene.ground), track)
+                .map(|said| ("Between", said)),
+        );
     }
     if track.each_day.is_some() {
         let day = track.instants.iter().filter(|instant| !instant.night);

@@ -14,11 +14,11 @@ pub use on_gpu::ProjectedOnGpu;
 use super::flat::FlatShadow;
 use super::plan_surface::tile_surface;
 use super::raised::{Falling, RaisedCells};
-use super::ray_cast::{RayCaster, Shear, TIE, reach};
-use super::{DrawnMask, JUDGED_ABOVE_M, Scene, ShadowError, SingleCells, Technique};
-use crate::view::{Bits, CellWord, Grid, Surface, Tile, View};
+use super::ray_cast::{RayCaster, TIE, reach};
+use super::{DifferingCells, DrawnMask, JUDGED_ABOVE_M, LightChange, Scene, ShadowError, SingleCells, Technique};
+use crate::view::{Grid, Surface, Tile, View};
 use glam::{DAffine3, DMat3, DVec2, DVec3};
-use std::sync::Arc;
+use std::ops::Range;
 
 /// The technique, made for one scene and one plan, or a tile of it.
 pub struct Projected {
@@ -40,8 +40,7 @@ impl Projected {
         let raster_from_local = raster_from_local(scene, &tile.plan);
         let shadow = FlatShadow::new(&scene.casters, raster_from_local, tile.first, tile.size);
         let raised = RaisedCells::new(scene, tile, &raster_from_local);
-        let above = raised.cells(tile.size);
-        Projected { shadow, raised, above, scene: scene.clone(), raster_from_local, tile, rays: None }
+        Projected { shadow, raised, scene: scene.clone(), raster_from_local, tile, rays: None }
     }
 
     /// Projects everything at every instant: the twin that tests culling.
@@ -84,12 +83,12 @@ impl Technique for Projected {
 
     /// The cells above the ground, as the ground's shadow costs little.
     fn single_cells(&self) -> Option<SingleCells> {
-        self.above.clone().map(SingleCells::Some)
+        self.raised.cells().cloned().map(SingleCells::Some)
     }
 
     fn draw_whole(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError> {
         let bits = self.shadow.draw(to_sun);
-        if let Some(above) = &self.above {
+        if let Some(above) = self.raised.cells() {
             bits.words.iter_mut().zip(&above.words).for_each(|(bits, above)| *bits &= !above);
         }
         Ok(DrawnMask::Bits(bits))
@@ -100,9 +99,12 @@ impl Technique for Projected {
     fn shaded_of(&mut self, to_sun: DVec3, asked: &[CellWord]) -> Result<Vec<u64>, ShadowError> {
         let Projected { raised, scene, raster_from_local, tile, rays, .. } = self;
         let rays = rays.get_or_insert_with(|| RayCaster::new(&scene.casters, reach(scene, &View::Plan(tile.plan))));
-        let (shear, local_from_raster) = (Shear::along(to_sun), raster_from_local.inverse());
-        let is_blocked = |at: DVec3| rays.blocked(local_from_raster.transform_point3(at), &shear);
-        Ok(raised.shaded_of(to_sun, asked, is_blocked))
+        let local_from_raster = raster_from_local.inverse();
+        let judged = |row: usize, column: usize| {
+            let (at, normal) = raised.judged(row, column);
+            Some((local_from_raster.transform_point3(at), normal))
+        };
+        Ok(cells.search(rows, rays, judged))
     }
 
     fn turn_to_tile(&mut self, tile: Tile) -> Result<bool, ShadowError> {
@@ -113,7 +115,6 @@ impl Technique for Projected {
         // frees the memory of the last tile before the next one's is allocated
         self.raised = RaisedCells::none(self.scene.casters.clone());
         self.raised = RaisedCells::new(&self.scene, tile, &self.raster_from_local);
-        self.above = self.raised.cells(tile.size);
         self.tile = tile;
         Ok(true)
     }

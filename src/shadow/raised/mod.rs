@@ -18,7 +18,7 @@ use super::flat::{Clumps, Judged, RasterBounds};
 use super::plan_surface::highest;
 use super::{JUDGED_ABOVE_M, Scene, seen_normal};
 use crate::mesh::Mesh;
-use crate::view::{Bits, CellWord, Surface, Tile};
+use crate::view::{Bits, Surface, Tile};
 use buckets::{BANDS, Buckets, SortedPoints};
 use falling_face::FallingFace;
 use glam::{DAffine3, DVec2, DVec3, DVec4, Vec3Swizzles};
@@ -75,7 +75,8 @@ impl RaisedCells {
             normal_of: Vec::new(),
             normals: Vec::new(),
             row_first: vec![0],
-            in_row: 1,
+            cells: Arc::new(Bits::new(1, 0)),
+            word_first: Vec::new(),
             bounds: RasterBounds::NONE,
             faces,
             shaded: Vec::new(),
@@ -88,7 +89,6 @@ impl RaisedCells {
         let Scene { casters, receivers, ground } = scene;
         let mut number = vec![u32::MAX; receivers.faces.len()];
         let mut raised = RaisedCells::none(casters.clone());
-        raised.in_row = tile.size[0].div_ceil(64) as usize;
         if receivers.faces.is_empty() {
             return raised;
         }
@@ -119,7 +119,25 @@ impl RaisedCells {
             raised.row_first.push(raised.points.len());
         }
         raised.shaded.resize_with(raised.points.len(), AtomicU8::default);
+        raised.find_cells(tile.size);
         raised
+    }
+
+    /// Finds the cells of the points, of a tile of so many columns and rows.
+    fn find_cells(&mut self, [width, height]: [u32; 2]) {
+        let mut cells = Bits::new(width, height);
+        let in_row = cells.in_row();
+        for (row, words) in cells.words.chunks_mut(in_row).enumerate() {
+            for column in &self.columns[self.row_first[row]..self.row_first[row + 1]] {
+                words[*column as usize / 64] |= 1 << (column % 64);
+            }
+        }
+        let mut next = 0;
+        for word in &cells.words {
+            self.word_first.push(next);
+            next += word.count_ones();
+        }
+        self.cells = Arc::new(cells);
     }
 
     /// Sets the bits of the raised cells. `falling` has the casters' vertices, `clumps` their faces.

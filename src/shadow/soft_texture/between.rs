@@ -1,15 +1,14 @@
 //! Finds when texels change between two instants: bisects with one ray per texel and moment, starting at the
 //! neighbour's change.
 
-use super::query::raster;
-use super::{PatchJudge, PatchJudgements, SoftTexture, count, work_of};
-use crate::mesh::patches::Patch;
-use crate::shadow::JUDGED_ABOVE_M;
-use crate::shadow::ShadowError;
-use crate::shadow::ray_cast::Shear;
+use super::{PatchJudge, PatchJudgements, SoftTexture, count};
+use crate::mesh::patches::{Patch, Texel};
+use crate::shadow::changes::{ChangeSearch, OpenPoint};
 use crate::shadow::soft_texture::Sample;
+use crate::shadow::{JUDGED_ABOVE_M, ShadowError};
 use glam::DVec3;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// An instant, or a moment between two instants.
 #[derive(Debug)]
@@ -55,33 +54,28 @@ impl SoftTexture {
         let all_secs = last.secs_before_change;
         let mut sums = std::mem::take(&mut self.sums);
         let judge = self.judge();
-        work_of(judge.sought.patches, &mut sums).into_par_iter().for_each(|(_, patch, sums)| {
-            let texels = patch.texels.start as usize..patch.texels.end as usize;
-            let (before, after) = (&before[texels.clone()], &after[texels]);
-            let mut search = TexelSearch {
-                judge: &judge,
-                patch,
-                moments,
-                rays: Vec::new(),
-                last: moments.len() / 2,
-                shift: 0,
-                cast: 0,
-            };
-            for (texel, (sum, ends)) in sums.iter_mut().zip(before.iter().zip(after)).enumerate() {
-                *sum += match ends {
-                    (0, 0) => 0,
-                    (1, 1) => all_secs,
-                    (before, _) => {
-                        let secs = search.secs_before_change(texel, *before == 1);
-                        if *before == 1 { secs } else { all_secs - secs }
-                    }
-                };
+        let list = &judge.sought.patches.list[patches];
+        let mut rest = match list {
+            [first, .., last] => &mut sums[first.texels.start as usize..last.texels.end as usize],
+            [only] => &mut sums[only.texels.start as usize..only.texels.end as usize],
+            [] => &mut [],
+        };
+        let mut runs = Vec::new();
+        let mut left = list;
+        while !left.is_empty() {
+            let (mut patches, mut texels) = (0, 0);
+            while texels < RUN && patches < left.len() {
+                texels += left[patches].texels.len();
+                patches += 1;
             }
-            count(judge.counts, PatchJudgements { rays: search.cast, ..PatchJudgements::default() });
-        });
+            let (run, later) = left.split_at(patches);
+            let (sums, later_sums) = rest.split_at_mut(texels);
+            runs.push((run, sums));
+            (left, rest) = (later, later_sums);
+        }
+        runs.into_par_iter().for_each(|(patches, sums)| judge.add_between(patches, sums, gap));
         self.sums = sums;
     }
-}
 
 /// The search on one patch.
 struct TexelSearch<'a> {
@@ -117,23 +111,51 @@ impl TexelSearch<'_> {
                 next = from + (to - from) / 2;
             }
         }
-        let shift = from as isize - self.last as isize;
-        self.shift = if shift.unsigned_abs() < self.moments.len() / 4 { shift } else { 0 };
-        self.last = from;
-        self.moments[from].secs_before_change
+        parts
+    }
+}
+
+impl PatchJudge<'_> {
+    /// The same, to the sums of patches that follow one another.
+    fn add_between(&self, patches: &[Patch], sums: &mut [u32], gap: &TextureGap<'_, impl Fn(u32) -> u32>) {
+        let Some(first) = patches.first().map(|patch| patch.texels.start as usize) else { return };
+        let last_moment = gap.suns.len().saturating_sub(1) as u32;
+        let all_secs = (gap.secs_before_change)(last_moment);
+        let [before, after] = gap.ends.map(|seen| &seen[first..first + sums.len()]);
+        let mut search = ChangeSearch::new(self.rays, gap.suns);
+        let mut differ: Vec<(usize, Texel)> = Vec::new();
+        for patch in patches {
+            let texels = patch.texels.start as usize - first..patch.texels.end as usize - first;
+            for (number, texel) in texels.zip(self.texels(patch)) {
+                match [before[number], after[number]] {
+                    [0, 0] => {}
+                    [1, 1] => sums[number] += all_secs,
+                    _ => differ.push((number, *texel)),
+                }
+            }
+            differ.sort_unstable_by_key(|(_, texel)| (texel.row / SIDE, texel.column / SIDE, texel.row, texel.column));
+            let square = |(_, texel): &(usize, Texel)| (texel.row / SIDE, texel.column / SIDE);
+            for texels in differ.chunk_by(|one, other| square(one) == square(other)) {
+                for (number, texel) in texels {
+                    search.add(self.open(patch, *texel, *number, before[*number] == 0));
+                }
+                search.search();
+            }
+            differ.clear();
+        }
+        let (changes, rays) = search.finish();
+        for change in changes {
+            let secs = (gap.secs_before_change)(change.moment);
+            sums[change.number] += if change.was_shaded { all_secs - secs } else { secs };
+        }
+        count(self.counts, PatchJudgements { rays, ..PatchJudgements::default() });
     }
 
-    fn is_lit(&mut self, texel: usize, moment: usize) -> bool {
-        let TexelSearch { judge, patch, moments, rays, cast, .. } = self;
-        rays.resize_with(moments.len(), || None);
-        let rays = rays[moment].get_or_insert_with(|| {
-            let raster = raster(patch, judge.sought.patches.cell, moments[moment].to_sun.extend(0.0))?;
-            let lift = judge.tie(patch, &raster) + raster.plane.truncate() * JUDGED_ABOVE_M;
-            Some(PatchRays { lift, shear: Shear::along(moments[moment].to_sun) })
-        });
-        let Some(PatchRays { lift, shear }) = rays else { return false };
-        *cast += 1;
-        let point = judge.sought.patches.point(patch, judge.texels(patch)[texel]);
-        !judge.rays.blocked(point + *lift, shear)
+    /// A texel that changes.
+    fn open(&self, patch: &Patch, texel: Texel, number: usize, is_shaded: bool) -> OpenPoint {
+        let normal = patch.plane.truncate();
+        let place = self.sought.patches.point(patch, texel) + self.tie(patch);
+        let lift = normal * JUDGED_ABOVE_M;
+        OpenPoint { number, at: place + lift, normal, behind: patch.two_sided.then_some(place - lift), is_shaded }
     }
 }

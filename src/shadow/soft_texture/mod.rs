@@ -22,14 +22,14 @@ mod occluders;
 mod on_gpu;
 mod query;
 
-pub use between::Moment;
+pub use between::TextureGap;
 #[cfg(feature = "test-hooks")]
 pub use factor::unoccluded;
 pub use fill::Fill;
 pub use query::{Choice, FEWEST_DRAWN, MOST_FACES_A_TEXEL, PatchJudgements, Sample};
 
 use super::ray_cast::{RayCaster, Shear, TIE};
-use super::registered::{Raster, RasterProjection};
+use super::registered::RasterProjection;
 use super::{JUDGED_ABOVE_M, ShadowError};
 use crate::gpu::Gpu;
 use crate::mesh::Mesh;
@@ -277,8 +277,8 @@ impl PatchJudge<'_> {
 
     /// The offset from a texel's centre to where it is judged, along the patch, as in filled textures; none for a patch
     /// with a single point.
-    fn tie(&self, patch: &Patch, raster: &Raster) -> DVec3 {
-        let tie = (raster.right * TIE.x - raster.down * TIE.y) * raster.cell;
+    fn tie(&self, patch: &Patch) -> DVec3 {
+        let tie = (patch.right * TIE.x - patch.down * TIE.y) * self.sought.patches.cell;
         if patch.alone.is_some() { DVec3::ZERO } else { tie }
     }
 
@@ -286,7 +286,7 @@ impl PatchJudge<'_> {
     fn cast(&self, patch: &Patch, sample: &Sample, sums: &mut [u32]) {
         let Some(raster) = raster(patch, self.sought.patches.cell, sample.light) else { return };
         count(self.counts, PatchJudgements { rays: sums.len() as u64, ..PatchJudgements::default() });
-        let tie = self.tie(patch, &raster);
+        let tie = self.tie(patch);
         let lift = raster.plane.truncate() * JUDGED_ABOVE_M;
         let sun = (sample.light.w == 0.0).then(|| Shear::along(sample.light.truncate()));
         let judged = |texel: &Texel| self.sought.patches.point(patch, *texel) + tie + lift;
