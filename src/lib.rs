@@ -82,6 +82,8 @@ pub mod shadow;
 #[doc(hidden)]
 pub mod picture;
 
+#[doc(hidden)]
+pub mod judgement;
 pub mod profile;
 #[doc(hidden)]
 pub mod sunlight;

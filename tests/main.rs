@@ -24,6 +24,8 @@ mod formats;
 mod geometry;
 mod georeference;
 mod gpu_silhouettes;
+mod judge;
+mod judged;
 mod live;
 mod look;
 mod lost;

@@ -60,6 +60,19 @@ fn samples(value: ValueType) -> (Vec<String>, Vec<String>) {
         ValueType::Number => (&["1", "-1.5"], &["\"x\"", "true", "[1.0]"]),
         ValueType::TextOrNumber => (&["\"x\"", "1"], &["true", "1.5", "-1"]),
         ValueType::Texts => (&["[\"x\"]", "[]"], &["1", "\"x\"", "[1]", "true"]),
+        ValueType::TextOrTexts => (&["\"x\"", "[\"x\"]"], &["1", "true", "[1]"]),
+        ValueType::NumberList => (&["[1, 2.5]", "[]"], &["1", "\"x\"", "[\"x\"]"]),
+        ValueType::Corners => (&["[[1, 2.5], [3, 4]]"], &["1", "[1, 2]", "[[1, 2, 3]]", "[[\"x\", 2]]"]),
+        ValueType::FourPoints => {
+            let points = |count: usize| format!("[{}]", vec!["[1, 2, 3]"; count].join(", "));
+            return (vec![points(4)], vec![points(3), points(5), "1".to_owned(), "[[1, 2]]".to_owned()]);
+        }
+        ValueType::Sides(of_side) => {
+            let good = vec![format!("[{{ side = 1, {of_side} = 2.5 }}]"), "[]".to_owned()];
+            let bad = ["side = 1", &format!("side = -1, {of_side} = 1"), &format!("side = 1, {of_side} = 1, x = 1")];
+            let bad = bad.iter().map(|sides| format!("[{{ {sides} }}]"));
+            return (good, bad.chain(["1".to_owned()]).collect());
+        }
         ValueType::Names => (&["true", "false", "[\"x\"]"], &["1", "\"x\"", "[1]"]),
         ValueType::Numbers(count) => {
             let list = |count: usize| format!("[{}]", vec!["1"; count].join(", "));

@@ -4,6 +4,7 @@ use super::animate::AnimateArgs;
 use super::arguments::{CheckArgs, Common, ProfileArgs, ShadowArgs, SunArgs, VerifyArgs, VolumesArgs};
 use super::compare::CompareArgs;
 use super::convert::ConvertArgs;
+use super::judge::JudgeArgs;
 use super::probe::ProbeArgs;
 use super::read_model::ReadModelArgs;
 use super::rules::RulesArgs;
@@ -57,6 +58,10 @@ pub(super) enum Command {
     Verify(VerifyArgs),
     /// When points lie in the sun, on a day or over a range of dates: to the second, and what blocks in between
     Probe(ProbeArgs),
+    /// Whether a site keeps an authority's rule: the verdict of each area, window, façade or band and of the whole, the
+    /// margin, the day and the point that decide, and who takes the sun. Exit status 0 passes, 1 does not (or is too close to
+    /// say), 3 only reports
+    Judge(JudgeArgs),
     /// The rules of authorities that are built in, with edition, source and options; or one of them as it is written
     Rules(RulesArgs),
     /// Reads a model for the program itself
@@ -79,6 +84,7 @@ impl Command {
             Command::Volumes(asked) => &asked.common,
             Command::Verify(asked) => &asked.common,
             Command::Probe(asked) => &asked.common,
+            Command::Judge(asked) => &asked.common,
         })
     }
 }

@@ -2,7 +2,8 @@
 //! work is done in `deliver`.
 //!
 //! Results go to stdout, progress and notes to stderr. The exit status is 0 when done, 1 for a failure, 2 for wrong
-//! use, and 130 when interrupted.
+//! use, and 130 when interrupted; `judge` answers with its own, 0 for a site that passes, 1 for one that does not, and 3 for
+//! nothing but a report.
 
 mod animate;
 mod arguments;
@@ -13,6 +14,7 @@ mod convert;
 mod draw;
 mod eye;
 mod interrupt;
+mod judge;
 mod memory;
 mod model;
 mod options;
@@ -59,8 +61,8 @@ pub fn main(window: Option<WindowOpener>) -> ExitCode {
         Err(error) => return refuse(&error),
     };
     let done = match (&arguments.command, window) {
-        (None, Some(window)) => window(None),
-        (Some(Command::Open(asked)), Some(window)) => window(Some(&asked.path)),
+        (None, Some(window)) => window(None).map(|()| ExitCode::SUCCESS),
+        (Some(Command::Open(asked)), Some(window)) => window(Some(&asked.path)).map(|()| ExitCode::SUCCESS),
         (Some(Command::Open(_)), None) => {
             let what = "open: this gnomon was built without its window; build it with the feature desktop";
             Err(WrongUse(what.to_owned()).into())
@@ -73,7 +75,7 @@ pub fn main(window: Option<WindowOpener>) -> ExitCode {
         }
     };
     match done {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(status) => status,
         Err(error) => {
             complain(&fault::line(error.as_ref(), &Options));
             ExitCode::from(status(&error))
@@ -81,10 +83,10 @@ pub fn main(window: Option<WindowOpener>) -> ExitCode {
     }
 }
 
-fn run(command: &Command) -> anyhow::Result<()> {
+fn run(command: &Command) -> anyhow::Result<ExitCode> {
     if let Command::ReadModel(asked) = command {
         // Ctrl-C ends it at once, as whoever asks for it
-        return read_model::read_model(asked);
+        return read_model::read_model(asked).map(|()| ExitCode::SUCCESS);
     }
     let threads = command.common().and_then(|common| common.threads);
     // this thread is one of them: work does not go to and fro between it and others that wait meanwhile
@@ -94,7 +96,8 @@ fn run(command: &Command) -> anyhow::Result<()> {
         None => anyhow::anyhow!("the threads that work could not be made: {error}; say --threads with fewer"),
     })?;
     interrupt::listen();
-    match command {
+    let done = match command {
+        Command::Judge(asked) => return judge::judge(asked),
         Command::Profile(asked) => profile::profile(asked),
         Command::Compare(asked) => compare::compare(asked),
         Command::Shadow(asked) => commands::shadow(asked),
@@ -108,7 +111,8 @@ fn run(command: &Command) -> anyhow::Result<()> {
         Command::Rules(asked) => rules::rules(asked),
         // main's own, and answered above
         Command::Open(_) | Command::ReadModel(_) => Ok(()),
-    }
+    };
+    done.map(|()| ExitCode::SUCCESS)
 }
 
 /// The exit status of an error.

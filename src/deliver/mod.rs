@@ -11,6 +11,7 @@ pub mod conversion;
 pub mod disk;
 mod error;
 pub mod instant;
+pub mod judgement;
 pub mod lines;
 mod parts;
 pub mod patches;

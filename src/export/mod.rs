@@ -11,6 +11,7 @@ mod error;
 pub mod figure;
 pub mod file;
 mod glb;
+pub mod judgement;
 pub mod model;
 mod model_lines;
 mod names;

@@ -50,6 +50,7 @@ pub use cache::CacheEntry;
 pub use cache::ModelCache;
 #[cfg(feature = "desktop")]
 pub(crate) use companion::goes_with_one_of;
+pub(crate) use footprints::{NamedOutline, OutlineFile, read_outlines};
 #[doc(hidden)]
 pub use format::Format;
 pub use limits::ReadLimits;

@@ -46,13 +46,30 @@ impl DaySun {
     /// When the sun is up and the cuts admit it, to the second; before the plane of an outward normal, where there is one.
     /// Where the altitude is that of a sky with air, it is the sun as it is seen.
     pub fn open(&self, cuts: &SunCuts, outward: Option<DVec3>) -> Vec<Spell> {
-        let counts = |sun: &SunMinute| {
+        self.when(|sun| {
             // below 0 it is night, as in every study
             sun.altitude_deg >= 0.0 && cuts.admits(sun.altitude_deg, sun.to_sun, outward)
-        };
+        })
+    }
+
+    /// When the sun is before all planes of these normals, or in them, to the second: so a point sees it through an opening.
+    pub fn before_planes(&self, normals: &[DVec3]) -> Vec<Spell> {
+        // each plane by itself, as the sun may pass two of them within a minute
+        let of_plane = |normal: &DVec3| self.when(|sun| sun.to_sun.dot(*normal) >= 0.0);
+        normals.iter().fold(self.windows.clone(), |spells, normal| common(&spells, &of_plane(normal)))
+    }
+
+    /// The lowest altitude in the windows that the cuts admit, degrees; nothing where the sun is never so high.
+    pub fn lowest_deg(&self, cuts: &SunCuts) -> Option<f64> {
+        let counted = self.minutes.iter().filter(|sun| cuts.admits(sun.altitude_deg, sun.to_sun, None));
+        counted.map(|sun| sun.altitude_deg).filter(|altitude| *altitude >= 0.0).min_by(f64::total_cmp)
+    }
+
+    /// The spells in the windows in which a sun counts.
+    fn when(&self, counts: impl Fn(&SunMinute) -> bool) -> Vec<Spell> {
         let mut spells = Vec::new();
         for [before, after] in self.minutes.array_windows() {
-            let [was, is] = [before, after].map(counts);
+            let [was, is] = [before, after].map(&counts);
             let change = || first_like(*before, *after, &counts);
             match (was, is) {
                 (true, true) => spells.push(Spell::new(before.secs, after.secs)),

@@ -1,6 +1,7 @@
 //! The site file as written: TOML → [`SiteFile`]. [`crate::site::Site::load`] finds out what it means.
 
 use super::error::{FieldLocation, SiteError};
+use super::judged_tables::{AreaTable, BeforeTable, FacadeTable, PlotTable, WindowTable};
 use super::keys;
 use super::overrides::refuse;
 use crate::formats::SceneName;
@@ -32,6 +33,19 @@ pub struct SiteFile {
     /// `[[probe]]`, in their order.
     #[serde(skip_serializing_if = "is_default")]
     pub probe: Vec<ProbeTable>,
+    /// `[[area]]`, in their order.
+    #[serde(skip_serializing_if = "is_default")]
+    pub area: Vec<AreaTable>,
+    /// `[[window]]`, in their order.
+    #[serde(skip_serializing_if = "is_default")]
+    pub window: Vec<WindowTable>,
+    /// `[[facade]]`, in their order.
+    #[serde(skip_serializing_if = "is_default")]
+    pub facade: Vec<FacadeTable>,
+    /// `[plot]`
+    pub plot: Option<PlotTable>,
+    /// `[before]`
+    pub before: Option<BeforeTable>,
 }
 
 /// `[place]`
@@ -273,6 +287,11 @@ impl SiteFile {
             place: table(file, &root, "place")?,
             model: list(file, &root, "model")?,
             probe: list(file, &root, "probe")?,
+            area: list(file, &root, "area")?,
+            window: list(file, &root, "window")?,
+            facade: list(file, &root, "facade")?,
+            plot: table(file, &root, "plot")?,
+            before: table(file, &root, "before")?,
         })
     }
 }
@@ -298,7 +317,7 @@ fn typed<T: DeserializeOwned>(file: &str, name: &str, brackets: &str, value: &Va
         // The library tells the key only in its own text: "… \nin `latitude`".
         let text = error.to_string();
         let key = text.rsplit_once("in `").map_or("", |(_, key)| key.trim_end().trim_end_matches('`'));
-        let key = key.split('.').next().unwrap_or_default();
+        let key = key.split(['.', '[']).next().unwrap_or_default();
         let what = error.message().replace("f64", "a number");
         let at = FieldLocation::Key { file: file.to_owned(), table: brackets.to_owned(), key: key.to_owned() };
         refuse(at, message![what; format!("write for example {}", keys::example(name, key))])

@@ -42,6 +42,16 @@ pub enum ValueType {
     Names,
     /// A list of texts in quotes.
     Texts,
+    /// Text in quotes, or a list of them.
+    TextOrTexts,
+    /// Any number of numbers in a list.
+    NumberList,
+    /// Any number of corners, each a list of two numbers.
+    Corners,
+    /// Four points, each a list of three numbers.
+    FourPoints,
+    /// A list of inline tables with a whole number for `side`, and a number for this key.
+    Sides(&'static str),
     /// One of some words, in quotes.
     Word(fn() -> Vec<&'static str>),
 }
@@ -56,6 +66,27 @@ pub const SITE_TABLES: &[(&str, bool, &str)] = &[
     ("plan", false, "The raster of cells in which ground and roofs are judged."),
     ("camera", false, "From where the perspective is seen, or which side an elevation shows."),
     ("probe", true, "A point whose hours of sun `gnomon probe` finds. There may be any number."),
+    (
+        "area",
+        true,
+        "An area that a [rule](rules/README.md) judges: a garden, a park, a roof terrace. There may be any number.",
+    ),
+    (
+        "window",
+        true,
+        "A window that a [rule](rules/README.md) judges, or all panes of some components. There may be any number.",
+    ),
+    (
+        "facade",
+        true,
+        "A façade that a [rule](rules/README.md) judges, with windows or without. There may be any number.",
+    ),
+    ("plot", false, "The plot that is built on, for [rules](rules/README.md) that judge lines around it."),
+    (
+        "before",
+        false,
+        "The state before, with which a [rule](rules/README.md) compares the site: another site file, or what of this one stands only before or only after.",
+    ),
 ];
 
 const fn key(table: &'static str, key: &'static str, value: ValueType, example: &'static str) -> SiteKey {
@@ -238,4 +269,121 @@ pub const SITE_KEYS: &[SiteKey] = &[
     key("probe", "normal", ValueType::Numbers(3), "normal = [0, -1, 0]")
         .default("none: it is free on all sides")
         .means("The direction that it faces, as a window does, of any length but 0."),
+    key("area", "name", ValueType::Text, "name = \"Garden, no. 12\"")
+        .default("area 1, area 2, …; of a file each polygon's `name`")
+        .means("What the verdict calls it. Beside `file` it chooses the polygon of that name."),
+    key("area", "polygon", ValueType::Corners, "polygon = [[20, 95], [32, 95], [32, 104], [20, 104]]")
+        .unit("metres")
+        .default("`polygon`, `file` or `component` must be written")
+        .means("Its corners in their order, east and north of the place. Its border must not cross or touch itself."),
+    key("area", "file", ValueType::Text, "file = \"areas.geojson\"")
+        .default("as `polygon`")
+        .means("A GeoJSON file, relative to the site file, of whose polygons each is an area of its own, with its holes."),
+    key("area", "crs", ValueType::Text, "crs = \"EPSG:25832\"").default("as the file says").means(
+        "The reference system of the file's coordinates, as `crs` under [[model]]. Coordinates of no map are metres east and \
+         north of the place.",
+    ),
+    key("area", "component", ValueType::TextOrTexts, "component = \"roof garden\"")
+        .default("as `polygon`")
+        .means("The upper faces of these components, up to 60° steep, by names as in `casts`."),
+    key("area", "height", ValueType::Number, "height = 0.0")
+        .unit("metres")
+        .default("0: on the ground, which is the terrain, or where there is none the plane")
+        .means("How high above the ground it lies, following the terrain."),
+    key("area", "level", ValueType::Number, "level = 12.5")
+        .unit("metres")
+        .default("none: it follows the ground")
+        .means("The height above the place's point of an area that is level wherever the ground lies: a roof terrace, a podium."),
+    key("window", "name", ValueType::Text, "name = \"kitchen\"")
+        .default("the component's name, or window 1, window 2, …")
+        .means("What the verdict calls it; several panes are numbered."),
+    key("window", "component", ValueType::TextOrTexts, "component = \"IfcWindow/Glass\"")
+        .default("`component` or `corners` must be written")
+        .means(
+            "The components that are glass, by names as in `casts`: each flat piece that is connected is one window. They let \
+             light through and cast nothing where a rule is judged.",
+        ),
+    key("window", "corners", ValueType::FourPoints, "corners = [[0, 0, 1], [1.2, 0, 1], [1.2, 0, 2.4], [0, 0, 2.4]]")
+        .unit("metres")
+        .default("as `component`")
+        .means(
+            "The corners of its glass as they are seen from outside: the sill's left and right end, the head's right and left \
+             end.",
+        ),
+    key("window", "room", ValueType::Text, "room = \"living room\"")
+        .default("none")
+        .means("The room to which it belongs."),
+    key("window", "dwelling", ValueType::Text, "dwelling = \"flat 3\"")
+        .default("none")
+        .means("The dwelling to which its room belongs."),
+    key("window", "usage", ValueType::Text, "usage = \"living\"")
+        .default("none")
+        .means("What the room is used for, in the rule's own word."),
+    key("window", "reveal", ValueType::Number, "reveal = 0.15")
+        .unit("metres")
+        .default("measured at the wall beside it")
+        .means("How far the glass lies behind the wall's outer plane."),
+    key("window", "inner", ValueType::Number, "inner = 0.2")
+        .unit("metres")
+        .default("none; a rule that judges the wall's inner plane asks for it")
+        .means("How far the wall's inner plane lies behind the glass."),
+    key("window", "floor", ValueType::Number, "floor = 3.2")
+        .unit("metres")
+        .default("none; a rule that counts from the floor asks for it")
+        .means("The height of the room's floor above the place's point."),
+    key("window", "room_area", ValueType::Number, "room_area = 24.5")
+        .unit("square metres")
+        .default("none; a rule that weighs rooms asks for it")
+        .means("The floor area of the room."),
+    key("window", "rooms", ValueType::Text, "rooms = \"rooms.csv\"").default("none").means(
+        "A [table](#windows-and-their-rooms) that says the room of each window by its name. It goes before the other keys.",
+    ),
+    key("facade", "name", ValueType::Text, "name = \"south front\"")
+        .default("façade 1, façade 2, …")
+        .means("What the verdict calls it."),
+    key("facade", "component", ValueType::TextOrTexts, "component = \"IfcWall/Render\"")
+        .default("must be written")
+        .means("The components whose upright faces are judged, by names as in `casts`."),
+    key("facade", "spacing", ValueType::Number, "spacing = 1.0")
+        .unit("metres")
+        .default("1")
+        .means("From point to point along the wall, and from row to row."),
+    key("facade", "heights", ValueType::NumberList, "heights = [1.5, 4.5]")
+        .unit("metres")
+        .default("rows from the bottom to the top, `spacing` apart")
+        .means("The heights of the rows of points above the ground's plane."),
+    key("plot", "border", ValueType::Corners, "border = [[0, 0], [30, 0], [30, 20], [0, 20]]")
+        .unit("metres")
+        .default("`border` or `file` must be written")
+        .means("Its corners in their order, east and north of the place."),
+    key("plot", "file", ValueType::Text, "file = \"plot.geojson\"")
+        .default("as `border`")
+        .means("A GeoJSON file with one polygon."),
+    key("plot", "crs", ValueType::Text, "crs = \"EPSG:25832\"")
+        .default("as the file says")
+        .means("The reference system of the file's coordinates."),
+    key("plot", "roads", ValueType::Sides("width"), "roads = [{ side = 1, width = 6.0 }]")
+        .unit("metres")
+        .default("none")
+        .means("The sides along which a road or water lies, with its width. Side 1 runs from the first corner to the second."),
+    key("plot", "neighbours", ValueType::Sides("higher"), "neighbours = [{ side = 3, higher = 1.5 }]")
+        .unit("metres")
+        .default("none: level with the mean ground")
+        .means("By how much the neighbour's ground along a side lies higher than the mean ground; negative where it lies lower."),
+    key("plot", "mean_ground", ValueType::Number, "mean_ground = 0.2")
+        .unit("metres")
+        .default("none; a rule that counts from it asks for it")
+        .means("The mean level of the ground at the building, above the place's point."),
+    key("before", "site", ValueType::Text, "site = \"without.toml\"")
+        .default("this one, with `absent` or `demolished`")
+        .means("The site file of the state before. Its models and its ground count; place and days are those of this one."),
+    key("before", "absent", ValueType::TextOrTexts, "absent = [\"proposed\"]")
+        .default("none")
+        .means("The components that do not stand before, by names as in `casts`."),
+    key("before", "demolished", ValueType::TextOrTexts, "demolished = [\"old barn\"]")
+        .default("none")
+        .means(
+            "The components that stand before alone, by names as in `casts`: in no other study of this site they cast or \
+             receive.",
+        ),
 ];

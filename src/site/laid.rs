@@ -75,7 +75,7 @@ fn tell_apart(laid: &mut [Vec<Probe>], beside: &[Probe]) {
 }
 
 /// The faces of a component that are connected by edges.
-fn pieces(mesh: &Mesh, component: &Component) -> Vec<Vec<u32>> {
+pub(super) fn pieces(mesh: &Mesh, component: &Component) -> Vec<Vec<u32>> {
     let first = component.faces.start;
     let mut above: Vec<u32> = (0..component.faces.len() as u32).collect();
     for edge in component.edges.clone() {
@@ -113,7 +113,7 @@ fn sides_of(mesh: &Mesh, faces: &[u32]) -> Option<Vec<[DVec3; 2]>> {
 }
 
 /// Points along an upright patch at a height.
-fn row(
+pub(super) fn row(
     mesh: &Mesh,
     patches: &Patches,
     patch: &Patch,

@@ -7,7 +7,9 @@ mod asked_value;
 mod camera;
 mod choice;
 mod contents;
+mod csv_lines;
 mod dates;
+mod demolished;
 mod error;
 mod extent;
 #[doc(hidden)]
@@ -17,6 +19,7 @@ mod ground;
 mod in_memory;
 mod inputs;
 mod judged;
+mod judged_tables;
 mod key_notes;
 mod key_table;
 mod keys;
@@ -59,7 +62,9 @@ pub use ground::{Ground, GroundFrom, GroundKind};
 #[doc(hidden)]
 pub use inputs::inputs;
 #[doc(hidden)]
-pub use judged::{AreaSurface, JudgedArea, JudgedFacade, JudgedPlot, JudgedSite, JudgedState, JudgedWindow, PlotSide};
+pub use judged::{
+    AreaSurface, JudgedArea, JudgedFacade, JudgedPlot, JudgedSite, JudgedState, JudgedWindow, PlotSide, load_judged,
+};
 #[doc(hidden)]
 pub use key_table::{SITE_KEYS, SITE_TABLES, SiteKey, ValueType};
 pub use likeness::{Likeness, Mend};

@@ -16,7 +16,7 @@ use super::placement::Placement;
 use super::stand::{StandingModel, stand};
 use super::standing::{self, TerrainFaces};
 use super::written::{WrittenSite, bare_fault};
-use super::{key_notes, layers, notes, on_terrain};
+use super::{demolished, key_notes, layers, notes, on_terrain};
 use crate::formats::{Coordinates, Model, ModelError, PartKind, ReadOptions, SeeThrough, Up, on_disk};
 use crate::mesh::{Component, Mesh, MeshError};
 use crate::message::{Message, few, message, set_to};
@@ -235,8 +235,17 @@ impl Models {
         self.contents.iter().zip(of_model)
     }
 
-    /// Per component whether it casts, and whether it receives, as a request says it.
+    /// Per component whether it casts, and whether it receives, as a request says it. What is demolished does neither.
     pub(super) fn roles(&self, written: &WrittenSite) -> Result<[Vec<bool>; 2], SiteError> {
+        let mut roles = self.roles_with_demolished(written)?;
+        for gone in demolished::components(written, &self.mesh.components)? {
+            roles.iter_mut().for_each(|role| role[gone] = false);
+        }
+        Ok(roles)
+    }
+
+    /// The same of all that stands before or now.
+    pub(super) fn roles_with_demolished(&self, written: &WrittenSite) -> Result<[Vec<bool>; 2], SiteError> {
         let mut roles = [Vec::new(), Vec::new()];
         for (index, (table, of_model)) in written.site.model.iter().zip(&self.of_model).enumerate() {
             let components = &self.mesh.components[of_model.clone()];
@@ -263,6 +272,7 @@ impl Models {
             let note = note_see_through(materials, casts);
             notes.extend(note.map(|note| note.about(name(written, index))));
         }
+        notes.extend(demolished::note(written, &self.mesh.components));
         notes
     }
 }

@@ -134,7 +134,7 @@ fn told_apart(places: [&str; 2], files: [&WrittenSite; 2]) -> [String; 2] {
 }
 
 /// The name of the place of `after`; or why it is another place than that of `before`.
-fn same_place(before: &WrittenSite, after: &WrittenSite, asked: &Overrides) -> Result<String, SiteError> {
+pub(super) fn same_place(before: &WrittenSite, after: &WrittenSite, asked: &Overrides) -> Result<String, SiteError> {
     let (here, there) = (before.place(asked)?, after.place(asked)?);
     let north = (there.latitude_deg - here.latitude_deg) * DEGREE_M;
     let turned = (there.longitude_deg - here.longitude_deg + 180.0).rem_euclid(360.0) - 180.0;

@@ -1,5 +1,6 @@
 //! Points from a table: CSV whose first line names its columns.
 
+use super::csv_lines::{CsvLines, text_of};
 use super::error::{FieldLocation, SiteError};
 use super::overrides::refuse;
 use crate::formats::composed;
@@ -7,11 +8,7 @@ use crate::message::{Field, message};
 use crate::view::Probe;
 use glam::DVec3;
 use rustc_hash::FxHashSet;
-use std::io::Read;
 use std::path::Path;
-
-/// No longer is a table, bytes.
-const MOST_BYTES: u64 = 64 << 20;
 
 /// The columns, the last three of which may be absent.
 const COLUMNS: [&str; 7] = ["name", "x", "y", "z", "nx", "ny", "nz"];
@@ -37,26 +34,14 @@ pub(super) fn unit(normal: [f64; 3], at: impl Fn() -> FieldLocation) -> Result<D
 /// What cannot be read, and the first line that is wrong.
 pub(super) fn read(path: &Path) -> Result<Vec<Probe>, SiteError> {
     let file = path.display().to_string();
-    let unreadable = |why: String| SiteError::Unreadable { path: file.clone(), why };
-    let mut bytes = Vec::new();
-    let opened = std::fs::File::open(path).map_err(|error| unreadable(error.to_string()))?;
-    opened.take(MOST_BYTES + 1).read_to_end(&mut bytes).map_err(|error| unreadable(error.to_string()))?;
-    if bytes.len() as u64 > MOST_BYTES {
-        return Err(unreadable(format!("a table of points has at most {} MB", MOST_BYTES >> 20)));
-    }
-    let text = String::from_utf8(bytes).map_err(|error| {
-        let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-        let line = good.iter().filter(|byte| **byte == b'\n').count() + 1;
-        SiteError::Encoding { file: file.clone(), what: format!("has a letter in line {line} that is not UTF-8") }
-    })?;
-    points(&file, text.trim_start_matches('\u{feff}'))
+    points(&file, &text_of(path)?)
 }
 
 /// The points of a table's text.
 fn points(file: &str, text: &str) -> Result<Vec<Probe>, SiteError> {
     let at =
         |line: usize| FieldLocation::Key { file: file.to_owned(), table: format!("line {line}"), key: String::new() };
-    let mut lines = TableLines { rest: text, line: 1 };
+    let mut lines = CsvLines::new(text, ',');
     let columns = match lines.next() {
         Some((_, Some(fields))) => fields.iter().map(|field| field.trim().to_ascii_lowercase()).collect(),
         _ => Vec::new(),
@@ -118,44 +103,4 @@ fn point(fields: &[String], number: usize, at: &FieldLocation) -> Result<Probe, 
     let point = triple(1)?;
     let normal = if is_free { None } else { Some(unit(triple(4)?.to_array(), || at.clone())?) };
     Ok(Probe { name, point, normal })
-}
-
-/// The lines of a table as RFC 4180 has them: a field in quotes may hold commas, line breaks, and quotes twice.
-struct TableLines<'a> {
-    rest: &'a str,
-    line: usize,
-}
-
-impl TableLines<'_> {
-    /// The next line's number and fields; no fields where a quote has no end.
-    fn next(&mut self) -> Option<(usize, Option<Vec<String>>)> {
-        if self.rest.is_empty() {
-            return None;
-        }
-        let first = self.line;
-        let (mut fields, mut field, mut is_quoted) = (Vec::new(), String::new(), false);
-        let mut letters = self.rest.char_indices().peekable();
-        while let Some((at, letter)) = letters.next() {
-            self.line += usize::from(letter == '\n');
-            match letter {
-                '"' if is_quoted && letters.next_if(|(_, next)| *next == '"').is_some() => field.push('"'),
-                '"' if is_quoted => is_quoted = false,
-                '"' if field.trim().is_empty() => {
-                    field.clear();
-                    is_quoted = true;
-                }
-                ',' if !is_quoted => fields.push(std::mem::take(&mut field)),
-                '\r' if !is_quoted => {}
-                '\n' if !is_quoted => {
-                    fields.push(field);
-                    self.rest = &self.rest[at + 1..];
-                    return Some((first, Some(fields)));
-                }
-                letter => field.push(letter),
-            }
-        }
-        self.rest = "";
-        fields.push(field);
-        Some((first, (!is_quoted).then_some(fields)))
-    }
 }

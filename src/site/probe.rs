@@ -223,7 +223,7 @@ fn days(place: &Place, written: &WrittenSite, asked: &Overrides) -> Result<Vec<D
 }
 
 /// One date, of the command line or of the study, or a range of them, and where they are asked.
-fn dates(written: &WrittenSite, asked: &Overrides) -> Result<(Vec<NaiveDate>, FieldLocation), SiteError> {
+pub(super) fn dates(written: &WrittenSite, asked: &Overrides) -> Result<(Vec<NaiveDate>, FieldLocation), SiteError> {
     if let Some(dates) = several(written, asked)? {
         return Ok(dates);
     }

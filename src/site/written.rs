@@ -227,20 +227,18 @@ impl WrittenSite {
 
     /// Where a key of one of the models stands.
     pub(super) fn model_key(&self, index: usize, key: &str) -> FieldLocation {
-        FieldLocation::Key {
-            file: self.file.clone(),
-            table: keys::numbered("model", index, self.site.model.len()),
-            key: key.to_owned(),
-        }
+        self.list_key("model", (index, self.site.model.len()), key)
     }
 
     /// Where a key of one of the probes stands.
     pub(super) fn probe_key(&self, index: usize, key: &str) -> FieldLocation {
-        FieldLocation::Key {
-            file: self.file.clone(),
-            table: keys::numbered("probe", index, self.site.probe.len()),
-            key: key.to_owned(),
-        }
+        self.list_key("probe", (index, self.site.probe.len()), key)
+    }
+
+    /// Where a key of one of so many tables of a list stands.
+    pub(super) fn list_key(&self, list: &str, (index, count): (usize, usize), key: &str) -> FieldLocation {
+        let table = keys::numbered(list, index, count);
+        FieldLocation::Key { file: self.file.clone(), table, key: key.to_owned() }
     }
 
     /// A key that must be there and is not.

@@ -3,6 +3,7 @@
 use crate::choice::Misfit;
 use crate::gpu::GpuError;
 use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display, setting};
+use crate::rules::RuleError;
 use crate::shadow::ShadowError;
 use crate::sun::{SunError, Zone};
 use chrono::DateTime;
@@ -76,6 +77,8 @@ pub enum StudyError {
     },
     /// The sun's position at a time cannot be found.
     Sun(#[from] SunError),
+    /// The rule cannot be applied to the site.
+    Rule(#[from] RuleError),
     /// Drawing failed.
     Shadow(#[from] ShadowError),
     /// The listener ended the work.
@@ -146,6 +149,7 @@ impl Worded for StudyError {
                 "take a window by day", Piece::Where(Field::From, pieces![" with ", Field::From, " and ", Field::To])
             ],
             StudyError::Sun(error) => error.message(),
+            StudyError::Rule(error) => error.to_string().into(),
             StudyError::Shadow(error) => error.message(),
             StudyError::Interrupted => message!["interrupted"],
         }
@@ -155,8 +159,8 @@ impl Worded for StudyError {
 impl StudyError {
     /// Whether the command line was wrong (exit status 2).
     pub fn is_wrong_use(&self) -> bool {
-        use StudyError::{Conflict, LittleMemory, Misfit, TooManyCells};
-        matches!(self, Conflict { .. } | Misfit(_) | LittleMemory { .. } | TooManyCells { .. })
+        use StudyError::{Conflict, LittleMemory, Misfit, Rule, TooManyCells};
+        matches!(self, Conflict { .. } | Misfit(_) | LittleMemory { .. } | TooManyCells { .. } | Rule(_))
     }
 
     /// What a graphics device failed of, where it did while working: on another one the work can be done.

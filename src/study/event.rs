@@ -66,7 +66,7 @@ pub enum Event<'a> {
     },
     /// The state so far. A listener that keeps it can continue the study later.
     Kept(&'a Unfinished),
-    /// After the study, one more stage of making its files is done.
+    /// One more stage is done: of making files after the study, or of judging.
     Stage(&'static str),
 }
 

@@ -17,16 +17,21 @@ mod event;
 mod fingerprint;
 mod frames;
 mod gaps;
+mod ground_heights;
 mod instant;
+#[doc(hidden)]
+pub mod judge;
 #[doc(hidden)]
 pub mod live;
 mod machine;
+mod openness;
 mod outcome;
 mod patch_sum;
 mod patches;
 #[doc(hidden)]
 pub mod probe;
 mod profile;
+mod settle;
 mod site_view;
 #[doc(hidden)]
 pub mod sky;
@@ -65,6 +70,8 @@ pub use patches::patches;
 pub(crate) use patches::patches_kept;
 pub(crate) use patches::seen_receivers;
 pub use profile::{TiledOutcome, in_tiles, paste, run};
+#[doc(hidden)]
+pub use settle::settle;
 #[doc(hidden)]
 pub use stopwatch::Stopwatch;
 #[doc(hidden)]

@@ -4,10 +4,11 @@
 //! to the sun's centre meets no caster; not below the ground. The answer is that of such a ray at every second, however
 //! short the sun or the shade.
 
+use super::ground_heights::GroundHeights;
+use super::openness::openness;
 use super::{Event, OnEvent, StudyError, note_models, tell};
-use crate::shadow::JUDGED_ABOVE_M;
 use crate::shadow::ray_cast::RayCaster;
-use crate::site::{GroundKind, ProbeSite};
+use crate::site::ProbeSite;
 use crate::sun::Air;
 use crate::sunlight::{JudgedPoint, ProbeIntervals, ProbeSearch, SearchedDays, SunDay, Sunlight, judged};
 use crate::view::Probe;
@@ -110,47 +111,14 @@ fn with_laid(asked: &ProbeSite) -> (Vec<Probe>, usize) {
     (probes, doubtful)
 }
 
-/// How far one sees from a point: metres along rays ahead, to both sides, up and down, each as far as a street is wide.
-fn openness(rays: &RayCaster, point: DVec3, normal: Option<DVec3>) -> f64 {
-    const FAR_M: f64 = 50.0;
-    let Some(normal) = normal else { return 0.0 };
-    let (across, along) = normal.any_orthonormal_pair();
-    let tilted = [across, -across, along, -along].map(|side| (normal + side).normalize());
-    let seen = |direction: DVec3| rays.first_hit(point, direction).map_or(FAR_M, |(_, away)| away.min(FAR_M));
-    tilted.into_iter().chain([normal]).map(seen).sum()
-}
-
 /// The air that bends the sun's light, where it does.
 pub(super) fn air(asked: &ProbeSite) -> Option<Air> {
     asked.refraction.then(|| Air::standard(asked.place.elevation_m))
 }
 
-/// Where probes are judged: one on the terrain, as exactly as its heights are, a millimetre above it, as all receivers are.
+/// Where probes are judged.
 pub(super) fn judged_points(asked: &ProbeSite, probes: &[Probe]) -> Vec<JudgedPoint> {
-    let terrain: Vec<bool> = match asked.ground.kind {
-        GroundKind::Plane => Vec::new(),
-        GroundKind::Terrain => asked.mesh.components.iter().map(|component| component.is_terrain).collect(),
-    };
-    let terrain = asked.mesh.of_components(&terrain);
-    let top = terrain.top() + 1.0;
-    let reach = probes.iter().map(judged).map(|point| (point.with_z(top) - terrain.origin).abs().max_element());
-    let rays = (!terrain.faces.is_empty()).then(|| RayCaster::new(&terrain, reach.fold(0.0, f64::max)));
-    let height = |point: DVec3| {
-        let (_, below) = rays.as_ref()?.first_hit(point.with_z(top) - terrain.origin, DVec3::NEG_Z)?;
-        // a plane above the terrain hides it
-        Some(top - below).filter(|height| *height >= asked.ground.level)
-    };
-    let judge = |probe: &Probe| {
-        let (point, normal) = (judged(probe), probe.normal);
-        match height(point) {
-            Some(height) if (point.z - height).abs() <= JUDGED_ABOVE_M => {
-                JudgedPoint { point: point.with_z(height + JUDGED_ABOVE_M), normal, below_ground_m: None }
-            }
-            height => {
-                let below = height.unwrap_or(asked.ground.level) - point.z;
-                JudgedPoint { point, normal, below_ground_m: Some(below).filter(|below| *below > 0.0) }
-            }
-        }
-    };
-    probes.iter().map(judge).collect()
+    let points: Vec<DVec3> = probes.iter().map(judged).collect();
+    let heights = GroundHeights::of(&asked.mesh, &asked.ground, &points);
+    probes.iter().map(|probe| heights.judge(judged(probe), probe.normal)).collect()
 }

@@ -21,6 +21,7 @@ pub(super) const MAY_KNOW: &[(&str, &[&str])] = &[
     ("profile", &["choice", "view", "gpu", "shadow"]),
     ("sunlight", &["mesh", "sun", "view", "shadow"]),
     ("verification", &["choice", "view", "shadow", "profile"]),
+    ("judgement", &["choice", "rules", "site"]),
     (
         "study",
         &[
@@ -28,6 +29,7 @@ pub(super) const MAY_KNOW: &[(&str, &[&str])] = &[
             "mesh",
             "sun",
             "view",
+            "rules",
             "site",
             "silhouette",
             "volume",
@@ -37,6 +39,7 @@ pub(super) const MAY_KNOW: &[(&str, &[&str])] = &[
             "profile",
             "sunlight",
             "verification",
+            "judgement",
         ],
     ),
     (
@@ -48,17 +51,33 @@ pub(super) const MAY_KNOW: &[(&str, &[&str])] = &[
             "mesh",
             "sun",
             "view",
+            "rules",
             "formats",
             "site",
             "volume",
             "profile",
             "sunlight",
             "verification",
+            "judgement",
         ],
     ),
     (
         "deliver",
-        &["choice", "mesh", "sun", "view", "site", "volume", "shadow", "profile", "sunlight", "study", "export"],
+        &[
+            "choice",
+            "mesh",
+            "sun",
+            "view",
+            "rules",
+            "site",
+            "volume",
+            "shadow",
+            "profile",
+            "sunlight",
+            "judgement",
+            "study",
+            "export",
+        ],
     ),
     ("fault", &["choice", "sun", "formats", "site", "gpu", "shadow", "study", "export", "deliver"]),
     (
@@ -76,6 +95,7 @@ pub(super) const MAY_KNOW: &[(&str, &[&str])] = &[
             "gpu",
             "shadow",
             "profile",
+            "judgement",
             "study",
             "export",
             "fault",
@@ -127,6 +147,7 @@ pub(super) const WORDS_OF_A_FACE: &[&str] = &[
     "gnomon verify",
     "gnomon probe",
     "gnomon open",
+    "gnomon judge",
 ];
 
 /// Where these words are meant: a menu of another program, the reference of the site file, and a window that cannot open.

@@ -27,6 +27,11 @@ fn value(key: &SiteKey) -> String {
         ValueType::Numbers(count) => format!("a list of {count} numbers"),
         ValueType::TextOrNumber => "text in quotes, or a whole number".to_owned(),
         ValueType::Texts => "a list of texts in quotes".to_owned(),
+        ValueType::TextOrTexts => "text in quotes, or a list of such texts".to_owned(),
+        ValueType::NumberList => "a list of numbers".to_owned(),
+        ValueType::Corners => "a list of corners, each of 2 numbers".to_owned(),
+        ValueType::FourPoints => "a list of 4 points, each of 3 numbers".to_owned(),
+        ValueType::Sides(of_side) => format!("a list of `{{ side = 1, {of_side} = 1.0 }}`"),
         ValueType::Names => "`true`, `false`, or a list of names in quotes".to_owned(),
         ValueType::Word(words) => words().iter().map(|word| format!("`\"{word}\"`")).collect::<Vec<_>>().join(", "),
     };

@@ -61,7 +61,7 @@ impl Project {
     /// The files that it is read from, and those of the state that it is compared with.
     pub(in crate::desktop) fn inputs(&self, before: Option<&WrittenSite>) -> Vec<PathBuf> {
         let of_before = before.map(|before| [vec![PathBuf::from(&before.file)], before.model_files()].concat());
-        let files = self.path.iter().cloned().chain(self.written.model_files());
+        let files = self.path.iter().cloned().chain(self.written.model_files()).chain(self.written.judged_files());
         files.chain(of_before.unwrap_or_default()).collect()
     }
 

@@ -79,7 +79,7 @@ enum Positions {
 }
 
 /// Reads all objects, and gives the reference system that the first of them names.
-fn read(bytes: &[u8], footprints: &mut Footprints) -> Result<Option<Value>, Message> {
+pub(super) fn read(bytes: &[u8], footprints: &mut Footprints) -> Result<Option<Value>, Message> {
     let mut crs = None;
     let objects = serde_json::Deserializer::from_slice(bytes).into_iter::<GeoObject>();
     for object in objects {
@@ -172,7 +172,7 @@ fn add_polygon(rings: Vec<Positions>, polygons: &mut Vec<RingPolygon>, footprint
 }
 
 /// What the coordinates are: longitudes and latitudes, unless an older `crs` member says otherwise.
-fn coordinates_of(crs: Option<&Value>, footprints: &mut Footprints) -> Coordinates {
+pub(super) fn coordinates_of(crs: Option<&Value>, footprints: &mut Footprints) -> Coordinates {
     let name = crs.and_then(|crs| crs.get("properties")?.get("name")?.as_str());
     if let Some(system) = name.and_then(named_system) {
         // the easting or longitude is first, whatever the name would have elsewhere

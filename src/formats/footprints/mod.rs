@@ -4,7 +4,8 @@
 //! which they are, and `site` brings every corner to its place. The files of this folder, in the order of the flow:
 //! `geojson`, `flatgeobuf` with `flatbuffer`, `shapefile` with `dbase` (bytes → outlines), `tags` (the attributes of an
 //! outline, and lengths as people write them), `footprint` (one outline, and its names), `overlap` (which outlines are
-//! replaced by their parts), `extrude` (outlines → blocks).
+//! replaced by their parts), `extrude` (outlines → blocks). `outlines` reads the polygons of areas that are judged, which
+//! are no buildings.
 
 use super::face_cutter::FaceCutter;
 use super::left_out::{LeftOutTally, counted, listed};
@@ -16,6 +17,7 @@ pub(super) use flatgeobuf::FlatGeobuf;
 use footprint::{Footprint, NO_AREA, RingPolygon, names_of};
 pub(super) use geojson::GeoJson;
 use glam::DVec3;
+pub(crate) use outlines::{NamedOutline, OutlineFile, read_outlines};
 pub(super) use shapefile::Shapefile;
 use tags::{FootprintTags, HeightSource, Rise};
 
@@ -25,6 +27,7 @@ mod flatbuffer;
 mod flatgeobuf;
 mod footprint;
 mod geojson;
+mod outlines;
 mod overlap;
 mod shapefile;
 mod tags;

@@ -2,9 +2,9 @@
 //!
 //! All points are in the world frame (metres, x east, y north, z up).
 
-use super::ground::Ground;
 use crate::mesh::Mesh;
 use crate::message::{Message, Words};
+use crate::site::Ground;
 use crate::sun::Place;
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
@@ -12,15 +12,17 @@ use std::sync::Arc;
 /// A checked site with everything on it that a rule may judge.
 #[derive(Clone, Debug)]
 pub struct JudgedSite {
+    /// The site file, as the user named it, for errors.
+    pub file: String,
     /// The place on Earth.
     pub place: Place,
     /// As it is asked for: what the verdict is on.
     pub now: JudgedState,
     /// The state with which it is compared, where the site says one.
     pub before: Option<JudgedState>,
-    /// What the user should know of how the models were read, as [`super::Site::notes`].
+    /// What the user should know of how the models were read, as [`crate::site::Site::notes`].
     pub notes: Vec<Message>,
-    /// As [`super::Site::words`].
+    /// As [`crate::site::Site::words`].
     pub words: &'static dyn Words,
     /// The areas, each with its own name.
     pub areas: Vec<JudgedArea>,
@@ -64,8 +66,8 @@ pub struct JudgedArea {
 pub enum AreaSurface {
     /// On a level plane at this z.
     Level(f64),
-    /// On the ground below: the terrain, or the plane of the ground.
-    Ground,
+    /// So many metres above the ground below: the terrain, or beside it the plane of the ground.
+    Ground(f64),
     /// On these triangles, which look upward.
     Faces(Vec<[DVec3; 3]>),
 }
@@ -82,8 +84,13 @@ pub struct JudgedWindow {
     pub corners: [DVec3; 4],
     /// Away from the room, a unit vector, square to the glass.
     pub outward: DVec3,
-    /// How far the wall's outer plane lies before the glass, metres.
+    /// The corners of the glass's other face as they are seen from there, where nothing says which of the two is outside.
+    /// `study::settle` takes the more open one and leaves none here.
+    pub other_side: Option<[DVec3; 4]>,
+    /// How far the wall's outer plane lies before the glass, metres; as `study::settle` measures it where it is not said.
     pub reveal_m: f64,
+    /// Whether the site says the reveal.
+    pub reveal_is_said: bool,
     /// How far the wall's inner plane lies behind the glass, metres, where it is known.
     pub inner_m: Option<f64>,
     /// The z of the room's floor, where it is known.
@@ -94,6 +101,8 @@ pub struct JudgedWindow {
     pub dwelling: Option<String>,
     /// What the room is used for, as a rule names it (`all_of`), where the site says it.
     pub usage: Option<String>,
+    /// The floor area of its room, square metres, where the site says it.
+    pub room_m2: Option<f64>,
 }
 
 /// A façade that is judged, whether it has windows or not.
@@ -103,6 +112,9 @@ pub struct JudgedFacade {
     pub name: String,
     /// Points on it, each with the outward normal of its wall.
     pub points: Vec<[DVec3; 2]>,
+    /// Those of them, by their index, of which nothing says that the normal looks outward. `study::settle` turns what is more
+    /// open behind and leaves none here.
+    pub doubtful: Vec<usize>,
 }
 
 /// The plot that is built on.

@@ -1,0 +1,58 @@
+//! What a rule says of a site, as an answer and a table.
+
+use super::{DeliverError, Sink, WrittenFiles};
+use crate::export::judgement as encode;
+use crate::judgement::Judgement;
+use crate::message::Message;
+use crate::rules::{ResolvedRule, RuleSource};
+use crate::site::JudgedSite;
+use crate::study::{self, Event, OnEvent, tell};
+use std::path::PathBuf;
+
+/// By which rule a site is judged.
+#[derive(Clone, Copy, Debug)]
+pub struct JudgeRequest<'a> {
+    /// Where the rule is from.
+    pub source: &'a RuleSource,
+    /// The rule with everything chosen.
+    pub rule: &'a ResolvedRule,
+    /// The name of the table with one line per receiver. Without a name there is no table.
+    pub table: Option<&'a PathBuf>,
+}
+
+/// The verdict.
+#[derive(Clone, Debug)]
+pub struct JudgeAnswer {
+    /// The verdicts, with all that they rest on.
+    pub judgement: Judgement,
+    /// What was noted of the models and of the judging.
+    pub notes: Vec<Message>,
+    /// The files that were written.
+    pub written: WrittenFiles,
+}
+
+/// Judges a site by a rule.
+///
+/// # Errors
+/// [`DeliverError`]; what cannot be written, and all that the rule needs and the site does not say, before anything is
+/// searched.
+pub fn judge(
+    site: &JudgedSite,
+    asked: JudgeRequest<'_>,
+    sink: Sink<'_>,
+    on_event: &mut OnEvent<'_>,
+) -> Result<JudgeAnswer, DeliverError> {
+    let names: Vec<PathBuf> = asked.table.into_iter().cloned().collect();
+    let open = sink.open(&names, None)?;
+    let mut notes = site.notes.clone();
+    let judgement = study::judge::judge(site, asked.source, asked.rule, &mut |event| {
+        study::gather(&event, &site.notes, &mut notes);
+        on_event(event)
+    })?;
+    for note in &judgement.notes {
+        tell(on_event, Event::Note(note.clone()))?;
+        notes.push(note.clone());
+    }
+    let files = names.into_iter().map(|name| (name, encode::csv(&judgement).into_bytes())).collect();
+    Ok(JudgeAnswer { written: open.write(files)?, judgement, notes })
+}

@@ -1,0 +1,62 @@
+//! The CSV of a judgement.
+
+use super::super::names::field;
+use super::numbers::{date_of, deciding, excuse, least_counted, number, secs_of, share_of};
+use crate::judgement::{Judgement, ReceiverRuling};
+use std::fmt::Write;
+
+const HEAD: &str = "name,kind,dwelling,room,use,verdict,grade,date,x,y,z,unit,value,limit,margin,before,difference,share,\
+                    share_limit,share_before,share_error,excuse\r\n";
+
+/// A table with a line a receiver, in the site's order, after RFC 4180. `value`, `limit`, `margin`, `before` and `difference`
+/// are in the `unit`: s, m2 or m2 s; shares are of the area. What there is not is empty.
+pub fn csv(judgement: &Judgement) -> String {
+    let mut text = HEAD.to_owned();
+    for receiver in &judgement.receivers {
+        let cells = cells(judgement, receiver);
+        // Writing to a String cannot fail.
+        let _ = write!(text, "{}\r\n", cells.iter().map(|cell| field(cell)).collect::<Vec<_>>().join(","));
+    }
+    text
+}
+
+fn cells(judgement: &Judgement, of: &ReceiverRuling) -> Vec<String> {
+    let finding = deciding(&of.ruling);
+    let text = |text: &Option<String>| text.clone().unwrap_or_default();
+    let told = |number: Option<f64>| number.map(|number| (number + 0.0).to_string()).unwrap_or_default();
+    let value = finding.map(|finding| number(finding.value));
+    let counted = least_counted(of).map(|(_, secs)| (secs as f64, "s"));
+    let (value, unit) = value.or(counted).map_or((None, ""), |(value, unit)| (Some(value), unit));
+    let before = finding.and_then(|finding| finding.before);
+    let limit = finding.and_then(|finding| finding.limit);
+    let share = |quantity| of.area.and_then(|area| share_of(quantity, area.m2));
+    let own_share = share(finding.map(|finding| finding.value));
+    let point = of.points.first();
+    let at = |of: fn(&glam::DVec3) -> f64| told(point.map(of).map(|at| (at * 1000.0).round() / 1000.0));
+    let difference = value.zip(before.map(|before| number(before).0)).map(|(now, before)| now - before);
+    debug_assert!(finding.is_none() || secs_of(finding.map(|finding| finding.value)).is_none() || unit == "s");
+    vec![
+        of.name.clone(),
+        of.kind.to_string(),
+        text(&of.dwelling),
+        text(&of.room),
+        text(&of.usage),
+        of.ruling.verdict.to_string(),
+        text(&of.ruling.grade),
+        date_of(judgement, of).map(|date| date.to_string()).unwrap_or_default(),
+        at(|point| point.x),
+        at(|point| point.y),
+        at(|point| point.z),
+        unit.to_owned(),
+        told(value),
+        told(limit.map(|limit| number(limit).0)),
+        told(finding.and_then(|finding| finding.margin)),
+        told(before.map(|before| number(before).0)),
+        told(difference),
+        told(own_share),
+        told(share(limit)),
+        told(share(before)),
+        told(of.area.filter(|_| own_share.is_some()).map(|area| area.error_m2 / area.m2)),
+        finding.and_then(|finding| finding.excuse).map(excuse).unwrap_or_default(),
+    ]
+}

@@ -1,0 +1,11 @@
+//! What `gnomon judge` says: a table for people, JSON with enough to compute it again by hand, and CSV with a line a receiver.
+
+mod csv;
+mod json;
+mod numbers;
+mod rule_report;
+mod table;
+
+pub use csv::csv;
+pub use json::json;
+pub use table::table;

@@ -1,0 +1,84 @@
+//! The site file as written → what is judged.
+
+use super::areas::areas;
+use super::before::{AskedSite, states};
+use super::facades::facades;
+use super::plot::plot;
+use super::request::JudgedSite;
+use super::rooms::add_rooms;
+use super::windows::windows;
+use crate::choice::Receivers;
+use crate::message::{Message, few};
+use crate::site::error::SiteError;
+use crate::site::ground;
+use crate::site::models::Models;
+use crate::site::overrides::Overrides;
+use crate::site::probe::dates;
+use crate::site::written::WrittenSite;
+use chrono::Datelike as _;
+use std::path::Path;
+
+/// Reads and checks what of a site is judged. Of the study only the year of its date is used. Sides that only rays can tell
+/// are left to `study::settle`.
+///
+/// # Errors
+/// Everything that can be wrong with it, each naming the file, the key or option, and a hint.
+pub fn load_judged(path: &Path, asked: &Overrides) -> Result<JudgedSite, SiteError> {
+    let as_written = WrittenSite::read(path, asked)?;
+    let (written, models) =
+        as_written.located(|| Models::read(&as_written, |path, options| asked.reading.read(path, options)))?;
+    let written = &*written;
+    let mut place = written.place(asked)?;
+    let (dates, _) = dates(written, asked)?;
+    let year = dates[0].year();
+    let level = ground::level(written, asked)?;
+    let models = models()?.with_terrain(written)?;
+    place.elevation_m = models.elevation_m.unwrap_or(place.elevation_m);
+
+    let mut windows = windows(written, &models.mesh)?;
+    add_rooms(written, &mut windows)?;
+    let site = AskedSite { written, place: &place, models: &models, level, is_glass: &windows.is_glass };
+    let (now, before, of_before) = states(&site, asked)?;
+    let (areas, of_areas) = areas(written, &place, &models.mesh)?;
+    let (facades, of_facades) = facades(written, &models.mesh, now.ground.level)?;
+    let (plot, of_plot) = plot(written, &place)?;
+
+    let [casts, receives] = models.roles(written)?;
+    let mut notes: Vec<Message> = written.place_note().into_iter().collect();
+    notes.extend(models.notes(written, &casts));
+    notes.extend(of_before.into_iter().filter(|note| !notes.contains(note)).collect::<Vec<_>>());
+    notes.extend(now.ground.notes(&models.mesh, &receives, Receivers::Ground));
+    let cast = models.mesh.components.iter().zip(&casts).zip(&windows.is_glass);
+    let clear =
+        cast.filter(|((_, casts), is_glass)| **casts && **is_glass).map(|((of, _), _)| format!("\"{}\"", of.name));
+    notes.extend(note_glass(clear.collect()));
+    notes.extend(windows.notes.into_iter().chain(of_areas).chain(of_facades).chain(of_plot));
+    let last = dates.last().map_or(year, |date| date.year());
+    notes.extend(
+        (last != year).then(|| Message::from(format!("the days of {year} are judged, the study's first year"))),
+    );
+    Ok(JudgedSite {
+        file: written.file.clone(),
+        place,
+        now,
+        before,
+        notes,
+        words: asked.words,
+        areas,
+        windows: windows.list,
+        facades,
+        plot,
+        year,
+        refraction: !asked.no_refraction,
+    })
+}
+
+/// That glass whose windows are judged casts nothing.
+fn note_glass(names: Vec<String>) -> Option<Message> {
+    let (components, they) = match names.len() {
+        0 => return None,
+        1 => ("1 component of glass whose windows are judged lets".to_owned(), "it casts"),
+        more => (format!("{more} components of glass whose windows are judged let"), "they cast"),
+    };
+    Some(Message::from(format!("{components} the sun through: {they} no shadow here ({})", few(names))))
+}

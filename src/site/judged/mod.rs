@@ -1,0 +1,20 @@
+//! What of a site is judged by a rule, and the states that are compared: the tables `[[area]]`, `[[window]]`, `[[facade]]`,
+//! `[plot]` and `[before]` of the site file → [`JudgedSite`].
+//!
+//! A file for each table; `rings`, `outline_file`, `glass` and `rooms` are what they are made of.
+
+mod areas;
+mod asked_table;
+mod before;
+mod facades;
+mod glass;
+mod load;
+mod outline_file;
+mod plot;
+mod request;
+mod rings;
+mod rooms;
+mod windows;
+
+pub use load::load_judged;
+pub use request::{AreaSurface, JudgedArea, JudgedFacade, JudgedPlot, JudgedSite, JudgedState, JudgedWindow, PlotSide};

@@ -1,0 +1,174 @@
+//! `[[window]]` → windows.
+
+use super::asked_table::{AskedTable, TakenNames};
+use super::glass::{outward, pane, rectangle};
+use super::request::JudgedWindow;
+use crate::mesh::Mesh;
+use crate::message::{Message, few, message};
+use crate::site::error::SiteError;
+use crate::site::judged_tables::{NameList, WindowTable};
+use crate::site::laid::pieces;
+use crate::site::written::WrittenSite;
+use glam::DVec3;
+
+/// No more windows are judged at once.
+const MOST_WINDOWS: usize = 100_000;
+/// Of a pane that fills less of its rectangle a note says so.
+const RECTANGLE: f64 = 0.9;
+/// No floor or sill lies farther from the place's point, metres.
+const FARTHEST_M: f64 = 1e5;
+/// No wall is thicker, metres.
+const THICKEST_M: f64 = 10.0;
+/// No room is larger, square metres.
+const LARGEST_M2: f64 = 1e6;
+
+/// The windows of a site file.
+#[derive(Debug, Default)]
+pub(super) struct AskedWindows {
+    /// All of them.
+    pub(super) list: Vec<JudgedWindow>,
+    /// Of each the index of its table.
+    pub(super) of_table: Vec<usize>,
+    /// For each component, whether its pieces are windows.
+    pub(super) is_glass: Vec<bool>,
+    /// What should be known of them.
+    pub(super) notes: Vec<Message>,
+}
+
+/// The windows of a site file, but for what a table of rooms says of them.
+///
+/// # Errors
+/// The first that is none.
+pub(super) fn windows(written: &WrittenSite, mesh: &Mesh) -> Result<AskedWindows, SiteError> {
+    let mut asked = AskedWindows { is_glass: vec![false; mesh.components.len()], ..AskedWindows::default() };
+    for (index, window) in written.site.window.iter().enumerate() {
+        let table = AskedTable { written, name: "window", at: (index, written.site.window.len()) };
+        let key = table.one_of(&[("component", window.component.is_some()), ("corners", window.corners.is_some())])?;
+        let plain = plain(&table, window)?;
+        if let Some(names) = &window.component {
+            add_panes(&mut asked, &table, &plain, (names, mesh))?;
+        }
+        if let Some(corners) = window.corners {
+            let corners = rectangle(corners).map_err(|fault| table.wrong(key, fault))?;
+            let name = table.named(window.name.as_ref()).map_or_else(|| format!("window {}", index + 1), str::to_owned);
+            asked.list.push(JudgedWindow { name, corners, outward: outward(&corners), ..plain });
+            asked.of_table.push(index);
+        }
+        if asked.list.len() > MOST_WINDOWS {
+            let what = format!("there are more than {MOST_WINDOWS} windows");
+            return Err(table.wrong(key, message![what; "judge fewer at once"]));
+        }
+    }
+    tell_apart(&mut asked, written)?;
+    Ok(asked)
+}
+
+/// What a table says of all of its windows.
+fn plain(table: &AskedTable, window: &WindowTable) -> Result<JudgedWindow, SiteError> {
+    let reveal = table.within("reveal", window.reveal, 0.0, THICKEST_M)?;
+    Ok(JudgedWindow {
+        name: String::new(),
+        component: None,
+        corners: [DVec3::ZERO; 4],
+        outward: DVec3::ZERO,
+        other_side: None,
+        reveal_m: reveal.unwrap_or(0.0),
+        reveal_is_said: reveal.is_some(),
+        inner_m: table.within("inner", window.inner, 0.0, THICKEST_M)?,
+        floor: table.within("floor", window.floor, -FARTHEST_M, FARTHEST_M)?,
+        room: table.named(window.room.as_ref()).map(str::to_owned),
+        dwelling: table.named(window.dwelling.as_ref()).map(str::to_owned),
+        usage: table.named(window.usage.as_ref()).map(str::to_owned),
+        room_m2: table.within("room_area", window.room_area, f64::MIN_POSITIVE, LARGEST_M2)?,
+    })
+}
+
+/// Adds the flat pieces of components, each a window.
+fn add_panes(
+    asked: &mut AskedWindows,
+    table: &AskedTable,
+    plain: &JudgedWindow,
+    (names, mesh): (&NameList, &Mesh),
+) -> Result<(), SiteError> {
+    let chosen = table.chosen("component", names, mesh)?;
+    let (mut found, mut bulky, mut odd) = (0_usize, Vec::new(), Vec::new());
+    for (index, component) in mesh.components.iter().enumerate().filter(|(index, _)| chosen[*index]) {
+        if std::mem::replace(&mut asked.is_glass[index], true) {
+            let what = format!("\"{}\" is glass of another [[window]], too", component.name);
+            return Err(table.wrong("component", message![what; "name each once"]));
+        }
+        let name = table.named(table.written.site.window[table.at.0].name.as_ref()).unwrap_or(&component.name);
+        for piece in pieces(mesh, component) {
+            let Some(pane) = pane(mesh, &piece) else {
+                bulky.push(format!("\"{}\"", component.name));
+                continue;
+            };
+            if pane.share < RECTANGLE {
+                odd.push(format!("\"{}\"", component.name));
+            }
+            found += 1;
+            let [corners, other_side] = pane.sides;
+            asked.list.push(JudgedWindow {
+                name: name.to_owned(),
+                component: Some(index as u32),
+                corners,
+                outward: outward(&corners),
+                other_side: Some(other_side),
+                ..plain.clone()
+            });
+            asked.of_table.push(table.at.0);
+            if asked.list.len() > MOST_WINDOWS {
+                // the caller says so
+                return Ok(());
+            }
+        }
+    }
+    if found == 0 {
+        let what = "has no flat piece, as a pane is: at most 25 cm thick, and half as thick as wide and high";
+        return Err(table.wrong("component", message![what; "name the glass alone"]));
+    }
+    let notes = [
+        (bulky, "not flat, as panes are, and no windows"),
+        (odd, "no rectangles: the rectangle around each is judged"),
+    ];
+    for (mut of, what) in notes {
+        let count = of.len();
+        of.dedup();
+        let (pieces, are) = if count == 1 { ("piece", "is") } else { ("pieces", "are") };
+        let note = || message![format!("{count} {pieces} of {} {are} {what}", few(of)); "name the glass alone"];
+        asked.notes.extend((count > 0).then(note));
+    }
+    Ok(())
+}
+
+/// Numbers windows of one name, and refuses names that are written twice.
+fn tell_apart(asked: &mut AskedWindows, written: &WrittenSite) -> Result<(), SiteError> {
+    let mut names = TakenNames::default();
+    let count = written.site.window.len();
+    let single = asked.list.iter().zip(&asked.of_table).filter(|(window, _)| window.component.is_none());
+    for (window, index) in single {
+        if !names.take(&window.name) {
+            let what = format!("\"{}\" is the name of another window, too", window.name);
+            let table = AskedTable { written, name: "window", at: (*index, count) };
+            return Err(table.wrong("name", message![what; "name each otherwise"]));
+        }
+    }
+    let mut counts: rustc_hash::FxHashMap<String, usize> = rustc_hash::FxHashMap::default();
+    for window in asked.list.iter().filter(|window| window.component.is_some()) {
+        *counts.entry(window.name.clone()).or_default() += 1;
+    }
+    let mut numbers: rustc_hash::FxHashMap<String, usize> = rustc_hash::FxHashMap::default();
+    for window in asked.list.iter_mut().filter(|window| window.component.is_some()) {
+        let plain = std::mem::take(&mut window.name);
+        let is_alone = counts.get(&plain) == Some(&1);
+        let number = numbers.entry(plain.clone()).or_default();
+        window.name = loop {
+            *number += 1;
+            let name = if is_alone && *number == 1 { plain.clone() } else { format!("{plain} {number}") };
+            if names.take(&name) {
+                break name;
+            }
+        };
+    }
+    Ok(())
+}

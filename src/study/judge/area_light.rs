@@ -1,0 +1,85 @@
+//! The light of points on areas.
+
+use super::judging::{BothStates, Judging};
+use super::point_light::PointLight;
+use super::samples::AreaSpot;
+use super::state_search::StateSearch;
+use crate::judgement::PartTriangle;
+use crate::rules::Spell;
+use crate::site::{AreaSurface, JudgedArea, JudgedState};
+use crate::sun::SunError;
+use crate::sunlight::JudgedPoint;
+use glam::DVec3;
+use std::collections::HashMap;
+
+/// Both states, for all areas.
+pub(super) type AreaStates = BothStates;
+
+/// Points no farther out than which all points of areas lie.
+pub(super) fn reach_of(areas: &[JudgedArea], states: &[&JudgedState]) -> Vec<DVec3> {
+    let bounds = states.iter().filter_map(|state| state.mesh.bounds());
+    let heights: Vec<f64> =
+        bounds.flat_map(|(low, high)| [low.z, high.z]).chain(states.iter().map(|state| state.ground.level)).collect();
+    let mut points = Vec::new();
+    for area in areas {
+        let corners = area.rings.iter().flatten();
+        let level = if let AreaSurface::Level(z) | AreaSurface::Ground(z) = area.surface { z } else { 0.0 };
+        points.extend(corners.flat_map(|corner| heights.iter().map(|z| corner.extend(z + level.abs()))));
+        if let AreaSurface::Faces(faces) = &area.surface {
+            points.extend(faces.iter().flatten());
+        }
+    }
+    points
+}
+
+/// An area, ready to be searched.
+pub(super) struct AreaPlace<'a> {
+    judging: &'a Judging<'a>,
+    states: &'a AreaStates,
+    surface: &'a AreaSurface,
+    /// When a sun that counts would shine, by the slope.
+    open: HashMap<[u64; 3], Vec<Vec<Spell>>>,
+}
+
+fn slope(normal: Option<DVec3>) -> [u64; 3] {
+    normal.map_or([0; 3], |normal| normal.to_array().map(f64::to_bits))
+}
+
+impl<'a> AreaPlace<'a> {
+    pub(super) fn new(
+        judging: &'a Judging<'a>,
+        states: &'a AreaStates,
+        surface: &'a AreaSurface,
+        parts: &[PartTriangle],
+    ) -> AreaPlace<'a> {
+        let mut open = HashMap::new();
+        for part in parts {
+            open.entry(slope(part.normal)).or_insert_with(|| judging.days.open_on_area(part.normal));
+        }
+        AreaPlace { judging, states, surface, open }
+    }
+
+    /// When a point is lit.
+    pub(super) fn light(&self, spot: &AreaSpot) -> Result<PointLight, SunError> {
+        let open = &self.open[&slope(spot.normal)];
+        let of_state = |search: &StateSearch| search.lit(&self.judged(search, spot), self.judging.days, open);
+        let now = of_state(&self.states.now)?;
+        let before = self.states.before.as_ref().map(of_state).transpose()?;
+        Ok(PointLight { open: open.clone(), now, before })
+    }
+
+    /// Where it is judged in the state that is asked for.
+    pub(super) fn judged_now(&self, spot: &AreaSpot) -> JudgedPoint {
+        self.judged(&self.states.now, spot)
+    }
+
+    /// Where it is judged in a state.
+    fn judged(&self, search: &StateSearch, spot: &AreaSpot) -> JudgedPoint {
+        match (self.surface, spot.normal) {
+            (AreaSurface::Level(z), _) => search.at_level(spot.at.with_z(*z)),
+            (AreaSurface::Ground(above), _) => search.above_ground(spot.at, *above),
+            (AreaSurface::Faces(_), Some(normal)) => search.in_plane(spot.at, normal),
+            (AreaSurface::Faces(_), None) => search.at_level(spot.at),
+        }
+    }
+}

@@ -1,0 +1,320 @@
+//! Areas: parts of them, their worst point, new shadow on them, and area times time.
+
+use super::super::StudyError;
+use super::area_light::{AreaPlace, AreaStates};
+use super::judging::{Judging, Steps};
+use super::point_light::{CountedLight, PointLight, merit};
+use super::samples::{AreaSpot, AreaSums, Samples, Summed};
+use crate::judgement::{AreaSize, JudgedThing, ReceiverRuling, ReceiverSpells, triangles, triangles_of_faces};
+use crate::rules::{
+    AreaLight, CountHow, Counted, Criterion, DayLight, Demand, Extent, PartMet, RuleError, Ruling, ShadowLoad, Verdict,
+    total_secs,
+};
+use crate::site::{AreaSurface, JudgedArea};
+use crate::sun::SunError;
+use crate::sunlight::JudgedPoint;
+use rayon::prelude::*;
+
+/// So many points are searched between two looks at the listener.
+const POINTS_TOGETHER: usize = 256;
+
+/// Who takes an area's sun is asked at so many of its points.
+const MOST_ASKED: usize = 48;
+
+/// A side of the first triangles is this part of the side of a square as large as the area.
+const SIDES_ACROSS: f64 = 24.0;
+/// Where every day of a year is summed the first triangles are larger, and there are fewer points.
+const SIDES_ACROSS_OF_SUMS: f64 = 10.0;
+
+/// A part of an area is known to this part of it, if its points suffice.
+const GOOD_SHARE: f64 = 0.001;
+const MOST_POINTS: usize = 40_000;
+
+/// Area times time is known to this part of itself, if its points suffice.
+const GOOD_LOAD: f64 = 0.005;
+const MOST_POINTS_OF_SUMS: usize = 1500;
+
+/// What a rule asks of an area.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum AreaQuestion {
+    /// Which part of it keeps the demand.
+    Part,
+    /// How much shadow falls on it, area times time.
+    Load,
+    /// When new shadow lies on any of it.
+    NewShadow,
+    /// Whether its worst point keeps the demand.
+    Worst,
+}
+
+/// A ruling, and what is told with it.
+pub(super) struct AreaAnswer {
+    pub(super) receiver: ReceiverRuling,
+    /// At the point that decides; nothing where no point does.
+    pub(super) light: Option<PointLight>,
+    /// Some points that do not keep the demand, for asking who takes their sun; none of an area that passes.
+    pub(super) shaded: Vec<(JudgedPoint, PointLight)>,
+}
+
+/// An area while it is judged.
+struct AreaWork<'w> {
+    judging: &'w Judging<'w>,
+    place: AreaPlace<'w>,
+    samples: Samples,
+    m2: f64,
+}
+
+/// One area.
+pub(super) fn area(
+    judging: &Judging<'_>,
+    states: &AreaStates,
+    area: &JudgedArea,
+    steps: &mut Steps<'_, '_>,
+) -> Result<AreaAnswer, StudyError> {
+    let parts = match &area.surface {
+        AreaSurface::Faces(faces) => triangles_of_faces(faces),
+        AreaSurface::Level(_) | AreaSurface::Ground(_) => triangles(&area.rings),
+    };
+    let m2: f64 = parts.iter().map(|part| part.m2).sum();
+    let question = question(judging);
+    let across = if question == AreaQuestion::Load { SIDES_ACROSS_OF_SUMS } else { SIDES_ACROSS };
+    let samples = Samples::new(&parts, (m2.sqrt() / across).max(1e-3));
+    let place = AreaPlace::new(judging, states, &area.surface, &parts);
+    let work = AreaWork { judging, place, samples, m2 };
+    let mut answer = match question {
+        AreaQuestion::Part => work.part(steps)?,
+        AreaQuestion::Load => work.load(steps)?,
+        AreaQuestion::NewShadow => work.new_shadow(steps)?,
+        AreaQuestion::Worst => work.worst(steps)?,
+    };
+    answer.receiver.name = area.name.clone();
+    steps.done(1)?;
+    Ok(answer)
+}
+
+fn question(judging: &Judging<'_>) -> AreaQuestion {
+    let rule = judging.rule;
+    let has = |of: &dyn Fn(&Criterion) -> bool| rule.criteria.iter().any(of);
+    if has(&|criterion| criterion.how == CountHow::AreaTime) {
+        AreaQuestion::Load
+    } else if has(&is_of_part) {
+        AreaQuestion::Part
+    } else if rule.counting.what == Counted::NewShadow || rule.is_report() {
+        AreaQuestion::NewShadow
+    } else {
+        AreaQuestion::Worst
+    }
+}
+
+fn is_of_part(criterion: &Criterion) -> bool {
+    matches!(criterion.extent, Extent::Part { .. } | Extent::OfBefore(_))
+}
+
+impl AreaWork<'_> {
+    /// The numbers of the days and criteria that are of parts of areas.
+    fn asked(&self) -> Vec<(usize, usize)> {
+        let judging = self.judging;
+        let of_day = |day: usize| {
+            let counts = move |number: &usize| judging.days.days[day].criteria[*number].is_some();
+            let parts = (0..judging.rule.criteria.len()).filter(|number| is_of_part(&judging.rule.criteria[*number]));
+            parts.filter(counts).map(move |number| (day, number))
+        };
+        (0..judging.days.days.len()).flat_map(of_day).collect()
+    }
+
+    fn part(mut self, steps: &mut Steps<'_, '_>) -> Result<AreaAnswer, StudyError> {
+        let (judging, asked) = (self.judging, self.asked());
+        let states = if judging.before.is_some() { 2 } else { 1 };
+        let kinds = vec![Summed::Part; asked.len() * states];
+        let value = |spot: &AreaSpot| -> Result<Vec<f64>, SunError> {
+            let light = self.place.light(spot)?.counted();
+            Ok(margins(judging, &light, &asked))
+        };
+        let m2 = self.m2;
+        let is_good = |sums: &AreaSums| sums.errors.iter().all(|error| *error <= GOOD_SHARE * m2);
+        let sums = self.samples.refine(&kinds, &value, (&is_good, MOST_POINTS), steps)?;
+        let lights: Vec<AreaLight<'_>> = (0..judging.days.days.len())
+            .map(|day| {
+                let met = |number: usize| {
+                    let at = asked.iter().position(|one| *one == (day, number))? * states;
+                    let before_m2 = (states == 2).then(|| sums.sums[at + 1].min(m2));
+                    let error_m2 = sums.errors[at..at + states].iter().copied().fold(0.0, f64::max);
+                    Some(PartMet { now_m2: sums.sums[at].min(m2), before_m2, error_m2 })
+                };
+                AreaLight { day: &judging.days.days[day], met: (0..judging.rule.criteria.len()).map(met).collect() }
+            })
+            .collect();
+        let ruling = judging.rule.judge_parts(m2, &lights)?;
+        let error_m2 = sums.errors.iter().copied().fold(0.0, f64::max);
+        let deciding = ruling.deciding.map(|at| &ruling.findings[at]);
+        let field = deciding.and_then(|finding| {
+            asked.iter().position(|(day, number)| {
+                *number == finding.criterion && Some(judging.days.days[*day].date) == finding.date
+            })
+        });
+        let at = field.unwrap_or(0) * states;
+        self.answer(ruling, error_m2, at)
+    }
+
+    /// With the point that has the lowest of a number as the one that decides.
+    fn answer(&self, ruling: Ruling, error_m2: f64, number: usize) -> Result<AreaAnswer, StudyError> {
+        let value = |spot: usize| self.samples.values[spot][number];
+        let lowest = (0..self.samples.spots.len()).min_by(|one, other| value(*one).total_cmp(&value(*other)));
+        let shaded = if ruling.verdict == Verdict::Pass { Vec::new() } else { self.some_below(number)? };
+        let light = lowest.map(|spot| self.place.light(&self.samples.spots[spot])).transpose()?;
+        let spot = lowest.map(|spot| self.samples.spots[spot]);
+        Ok(self.told(ruling, error_m2, (spot, light), shaded))
+    }
+
+    /// Some points whose number is below 0, spread over all of them.
+    fn some_below(&self, number: usize) -> Result<Vec<(JudgedPoint, PointLight)>, SunError> {
+        let values = &self.samples.values;
+        let below: Vec<usize> = (0..values.len()).filter(|spot| values[*spot][number] < 0.0).collect();
+        let some = below.iter().step_by(below.len().div_ceil(MOST_ASKED).max(1));
+        let light = |spot: &usize| {
+            let spot = &self.samples.spots[*spot];
+            Ok((self.place.judged_now(spot), self.place.light(spot)?))
+        };
+        some.copied().collect::<Vec<_>>().par_iter().map(light).collect()
+    }
+
+    fn told(
+        &self,
+        ruling: Ruling,
+        error_m2: f64,
+        (spot, light): (Option<AreaSpot>, Option<PointLight>),
+        shaded: Vec<(JudgedPoint, PointLight)>,
+    ) -> AreaAnswer {
+        let counts = light.as_ref().map(|light| light.counted().counts(self.judging.rule, self.judging.days.days));
+        let receiver = ReceiverRuling {
+            name: String::new(),
+            kind: JudgedThing::Area,
+            ruling,
+            area: Some(AreaSize { m2: self.m2, points: self.samples.values.len(), error_m2 }),
+            points: spot.iter().map(|spot| self.place.judged_now(spot).point).collect(),
+            normal: spot.and_then(|spot| spot.normal),
+            room: None,
+            dwelling: None,
+            usage: None,
+            counts: counts.unwrap_or_default(),
+            spells: Vec::new(),
+            takers: Vec::new(),
+        };
+        AreaAnswer { receiver, light, shaded }
+    }
+
+    fn load(mut self, steps: &mut Steps<'_, '_>) -> Result<AreaAnswer, StudyError> {
+        let judging = self.judging;
+        let days = judging.days.days;
+        // the last number is the sum of all days: it alone says where to look closer
+        let value = |spot: &AreaSpot| -> Result<Vec<f64>, SunError> {
+            let light = self.place.light(spot)?.counted();
+            let secs = |day: usize| total_secs(&light.new_shadow(day)) as f64;
+            let mut found: Vec<f64> = (0..days.len()).map(secs).collect();
+            let sum = found.iter().sum();
+            found.insert(0, sum);
+            Ok(found)
+        };
+        let open: i64 = days.iter().map(|day| total_secs(&day.windows)).sum();
+        let enough = 1e-6 * self.m2 * open as f64;
+        let is_good = |sums: &AreaSums| sums.errors[0] <= (GOOD_LOAD * sums.sums[0]).max(enough);
+        self.samples.refine(&[Summed::Number], &value, (&is_good, MOST_POINTS_OF_SUMS), steps)?;
+        let sums = self.samples.sums(&vec![Summed::Number; days.len() + 1]);
+        let each_error = sums.errors[0] / days.len().max(1) as f64;
+        let of = |(at, day)| ShadowLoad { day, m2_secs: sums.sums[at + 1], error_m2_secs: each_error };
+        let loads: Vec<ShadowLoad<'_>> = days.iter().enumerate().map(of).collect();
+        let ruling = judging.rule.judge_load(self.m2, &loads)?;
+        let most = self.samples.values.iter().enumerate().max_by(|one, other| one.1[0].total_cmp(&other.1[0]));
+        let spot = most.map(|(spot, _)| self.samples.spots[spot]);
+        let light = spot.map(|spot| self.place.light(&spot)).transpose()?;
+        Ok(self.told(ruling, 0.0, (spot, light), Vec::new()))
+    }
+
+    fn new_shadow(mut self, steps: &mut Steps<'_, '_>) -> Result<AreaAnswer, StudyError> {
+        let judging = self.judging;
+        let days = judging.days.days;
+        let mut lights: Vec<CountedLight> = Vec::new();
+        for some in self.samples.spots.chunks(POINTS_TOGETHER) {
+            let light = |spot: &AreaSpot| Ok(self.place.light(spot)?.counted());
+            lights.extend(some.par_iter().map(light).collect::<Result<Vec<_>, SunError>>()?);
+            steps.poll()?;
+        }
+        let shaded_secs =
+            |light: &CountedLight| (0..days.len()).map(|day| total_secs(&light.new_shadow(day))).sum::<i64>();
+        self.samples.values = lights.iter().map(|light| vec![-(shaded_secs(light) as f64)]).collect();
+        let any = CountedLight::any_with_new_shadow(&lights.iter().collect::<Vec<_>>(), days.len());
+        let ruling = any.ruling(judging.rule, None, days)?;
+        let mut answer = self.answer(ruling, 0.0, 0)?;
+        answer.receiver.counts = any.counts(judging.rule, days);
+        let light = answer.light.as_ref();
+        let told = light.map(|light| light.told(0..days.len())).unwrap_or_default();
+        let with = |spells: ReceiverSpells| ReceiverSpells { newly_shaded: any.newly_shaded_on(spells.day), ..spells };
+        answer.receiver.spells = told.into_iter().map(with).collect();
+        Ok(answer)
+    }
+
+    fn worst(mut self, steps: &mut Steps<'_, '_>) -> Result<AreaAnswer, StudyError> {
+        let judging = self.judging;
+        let ruling = |spot: &AreaSpot| -> Result<Ruling, StudyError> {
+            Ok(self.place.light(spot)?.counted().ruling(judging.rule, None, judging.days.days)?)
+        };
+        if let Some(first) = self.samples.spots.first() {
+            // what the rule needs and nobody says is the same everywhere
+            ruling(first)?;
+        }
+        let value = |spot: &AreaSpot| -> Result<Vec<f64>, SunError> {
+            let light = self.place.light(spot)?.counted();
+            let ruling = light.ruling(judging.rule, None, judging.days.days);
+            Ok(vec![ruling.map_or(0.0, |ruling| merit(&ruling).1)])
+        };
+        let (lowest, lowered) = self.samples.lowest(&value, steps)?;
+        let mut worst = match self.samples.spots.get(lowest) {
+            Some(spot) => ruling(spot)?,
+            None => {
+                return Err(RuleError::Needs {
+                    rule: judging.rule.id.clone(),
+                    what: "areas of more than 0 m²".to_owned(),
+                }
+                .into());
+            }
+        };
+        close_where_near(&mut worst, lowered);
+        self.answer(worst, 0.0, 0)
+    }
+}
+
+/// A worst point that keeps its limit by less than the search last found it lower may not be the worst.
+pub(super) fn close_where_near(ruling: &mut Ruling, lowered: f64) {
+    let (rank, margin) = merit(ruling);
+    let is_near = ruling.verdict == Verdict::Pass && rank == 2 && margin >= 0.0 && margin < lowered;
+    if is_near {
+        ruling.verdict = Verdict::Close;
+    }
+}
+
+/// By how much a point keeps each demand, seconds, now and before.
+fn margins(judging: &Judging<'_>, light: &CountedLight, asked: &[(usize, usize)]) -> Vec<f64> {
+    let days = light.days(judging.days.days);
+    let mut found = Vec::with_capacity(asked.len() * 2);
+    for (day, number) in asked {
+        let now = days[*day];
+        found.push(margin(judging, *number, &now));
+        if let Some(before) = now.before {
+            found.push(margin(judging, *number, &DayLight { lit: before, ..now }));
+        }
+    }
+    found
+}
+
+fn margin(judging: &Judging<'_>, number: usize, light: &DayLight<'_>) -> f64 {
+    // a missing state is asked for before
+    let count = judging.rule.tally(number, light).unwrap_or_default();
+    match judging.rule.criteria[number].demand {
+        Demand::AtLeast { secs, longest_secs } => {
+            let of_longest = if longest_secs > 0 { count.longest_secs - longest_secs } else { i64::MAX };
+            (count.secs - secs).min(of_longest) as f64
+        }
+        Demand::AtMost(secs) => (secs - count.secs) as f64,
+        Demand::ShareOfOpen(_) | Demand::Report { .. } => 0.0,
+    }
+}

@@ -1,0 +1,58 @@
+//! The flow of a judgement.
+
+use super::super::{OnEvent, StudyError, note_models};
+use super::days::{JudgedDays, hulls};
+use super::groups::{WindowsJudged, groups, of_groups};
+use super::judging::{Judging, Steps};
+use super::needs;
+use super::receivers::{Found, found};
+use super::whole::{day_verdicts, grade, notes, with_takers};
+use crate::judgement::Judgement;
+use crate::rules::{CompareWith, ResolvedRule, RuleSource, Ruling, Verdict};
+use crate::site::JudgedSite;
+
+/// What a rule says of a site.
+///
+/// # Errors
+/// [`StudyError`]; [`StudyError::Rule`] with all that the rule needs and the site does not say.
+pub fn judge(
+    site: &JudgedSite,
+    source: &RuleSource,
+    rule: &ResolvedRule,
+    on_event: &mut OnEvent<'_>,
+) -> Result<Judgement, StudyError> {
+    note_models(&site.notes, on_event)?;
+    needs::check(rule, site)?;
+    let calendar = rule.calendar(&site.place, site.year)?;
+    let hulls = hulls(&site.place, &calendar)?;
+    let days = JudgedDays::new(site, rule.cuts, &calendar, &hulls)?;
+    // a body that the law allows is none of the states that a site has
+    let before = site.before.as_ref().filter(|_| rule.compare != Some(CompareWith::Reference));
+    let judging = Judging { site, rule, days: &days, before };
+    let Some(first) = hulls.first() else { return Err(StudyError::NoDay) };
+    let mut steps = Steps::new(on_event, judging.count(), first.from)?;
+    let Found { mut receivers, windows } = found(&judging, &mut steps)?;
+    let rulings: Vec<Ruling> = receivers.iter().map(|(receiver, _)| receiver.ruling.clone()).collect();
+    let groups = groups(&WindowsJudged {
+        rule,
+        days: &calendar,
+        windows: if windows.is_empty() { &[] } else { &site.windows },
+        lights: &windows,
+        rulings: &rulings,
+    })?;
+    with_takers(&judging, &hulls, &mut receivers, &mut steps)?;
+    let receivers: Vec<_> = receivers.into_iter().map(|(receiver, _)| receiver).collect();
+    let all = || Verdict::all(receivers.iter().map(|receiver| receiver.ruling.verdict));
+    let verdict = of_groups(&groups).unwrap_or_else(all);
+    Ok(Judgement {
+        source: source.clone(),
+        rule: rule.clone(),
+        day_verdicts: day_verdicts(rule, &calendar, &receivers, &groups),
+        verdict,
+        grade: grade(rule, verdict, &receivers, &groups),
+        notes: notes(&judging, &receivers),
+        receivers,
+        groups,
+        days: calendar,
+    })
+}

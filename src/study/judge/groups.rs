@@ -1,0 +1,208 @@
+//! Rooms, dwellings and the house.
+
+use super::super::StudyError;
+use super::point_light::CountedLight;
+use super::windows::WindowLight;
+use crate::judgement::{GroupKind, GroupRuling};
+use crate::rules::{
+    Counted, Criterion, Demand, DwellingSun, Extent, Grouping, ResolvedRule, RoomRuling, RuleDay, RuleReceiver, Ruling,
+    Verdict,
+};
+use crate::site::JudgedWindow;
+
+/// The rooms of all dwellings, in the order of their first windows.
+struct Room<'a> {
+    name: &'a str,
+    dwelling: Option<&'a str>,
+    windows: Vec<usize>,
+}
+
+/// All windows of a site, judged one by one.
+pub(super) struct WindowsJudged<'a> {
+    pub(super) rule: &'a ResolvedRule,
+    pub(super) days: &'a [RuleDay],
+    pub(super) windows: &'a [JudgedWindow],
+    pub(super) lights: &'a [WindowLight],
+    pub(super) rulings: &'a [Ruling],
+}
+
+/// The groups of a rule of windows; none where it judges each window for itself.
+pub(super) fn groups(judged: &WindowsJudged<'_>) -> Result<Vec<GroupRuling>, StudyError> {
+    let RuleReceiver::Window { group, all_of, .. } = &judged.rule.receiver else { return Ok(Vec::new()) };
+    let mut groups = Vec::new();
+    if *group == Some(Grouping::Room) || judged.rule.dwelling.is_some() {
+        groups = rooms(judged)?;
+    }
+    if judged.rule.dwelling.is_some() {
+        let dwellings = dwellings(judged, &groups)?;
+        groups.extend(dwellings);
+    }
+    if judged.rule.criteria.iter().any(Criterion::is_of_dwellings) {
+        groups.extend(house(judged, all_of)?);
+    }
+    Ok(groups)
+}
+
+/// The verdict of all groups of the widest kind.
+pub(super) fn of_groups(groups: &[GroupRuling]) -> Option<Verdict> {
+    let of = |kind: GroupKind| {
+        let verdicts: Vec<Verdict> =
+            groups.iter().filter(|group| group.kind == kind).map(|group| group.verdict).collect();
+        (!verdicts.is_empty()).then(|| Verdict::all(verdicts))
+    };
+    of(GroupKind::House).or_else(|| of(GroupKind::Dwelling)).or_else(|| of(GroupKind::Room))
+}
+
+fn rooms(judged: &WindowsJudged<'_>) -> Result<Vec<GroupRuling>, StudyError> {
+    let is_union = matches!(&judged.rule.receiver, RuleReceiver::Window { group: Some(Grouping::Room), .. });
+    let mut rooms: Vec<Room<'_>> = Vec::new();
+    for (at, window) in judged.windows.iter().enumerate() {
+        let Some(name) = window.room.as_deref() else { continue };
+        let dwelling = window.dwelling.as_deref();
+        match rooms.iter_mut().find(|room| room.name == name && room.dwelling == dwelling) {
+            Some(room) => room.windows.push(at),
+            None => rooms.push(Room { name, dwelling, windows: vec![at] }),
+        }
+    }
+    let mut groups = Vec::new();
+    for room in rooms {
+        let ruling =
+            is_union.then(|| union(judged, &room.windows).ruling(judged.rule, None, judged.days)).transpose()?;
+        // where the rule does not add windows up, one of them is enough for the room
+        let of_windows = || Verdict::any(room.windows.iter().map(|at| judged.rulings[*at].verdict));
+        groups.push(GroupRuling {
+            name: room.name.to_owned(),
+            kind: GroupKind::Room,
+            dwelling: room.dwelling.map(str::to_owned),
+            verdict: ruling.as_ref().map_or_else(of_windows, |ruling| ruling.verdict),
+            ruling,
+            by_rooms: None,
+            of: room.windows.iter().map(|at| judged.windows[*at].name.clone()).collect(),
+            uses: Vec::new(),
+        });
+    }
+    Ok(groups)
+}
+
+/// Lit where any of some windows is.
+fn union(judged: &WindowsJudged<'_>, windows: &[usize]) -> CountedLight {
+    let lights: Vec<CountedLight> = windows.iter().map(|at| judged.lights[*at].light.counted()).collect();
+    CountedLight::any(&lights.iter().collect::<Vec<_>>(), judged.days.len())
+}
+
+fn dwellings(judged: &WindowsJudged<'_>, rooms: &[GroupRuling]) -> Result<Vec<GroupRuling>, StudyError> {
+    let mut names: Vec<&str> = Vec::new();
+    for room in rooms {
+        if let Some(dwelling) = room.dwelling.as_deref()
+            && !names.contains(&dwelling)
+        {
+            names.push(dwelling);
+        }
+    }
+    let floor_m2 = |room: &GroupRuling| {
+        let of_room = |window: &&JudgedWindow| {
+            window.room.as_deref() == Some(&*room.name) && window.dwelling == room.dwelling && window.room_m2.is_some()
+        };
+        judged.windows.iter().find(of_room).and_then(|window| window.room_m2).unwrap_or(0.0)
+    };
+    let mut groups = Vec::new();
+    for name in names {
+        let own: Vec<&GroupRuling> = rooms.iter().filter(|room| room.dwelling.as_deref() == Some(name)).collect();
+        let rulings: Vec<RoomRuling> =
+            own.iter().map(|room| RoomRuling { verdict: room.verdict, floor_m2: floor_m2(room) }).collect();
+        let by_rooms = judged.rule.judge_dwelling(&rulings)?;
+        groups.push(GroupRuling {
+            name: name.to_owned(),
+            kind: GroupKind::Dwelling,
+            dwelling: None,
+            verdict: by_rooms.as_ref().map_or(Verdict::Report, |ruling| ruling.verdict),
+            ruling: None,
+            by_rooms,
+            of: own.iter().map(|room| room.name.clone()).collect(),
+            uses: Vec::new(),
+        });
+    }
+    Ok(groups)
+}
+
+/// The house by its dwellings, each with its uses.
+fn house(judged: &WindowsJudged<'_>, all_of: &[String]) -> Result<Vec<GroupRuling>, StudyError> {
+    let mut names: Vec<&str> = Vec::new();
+    for window in judged.windows {
+        if let Some(dwelling) = window.dwelling.as_deref()
+            && !names.contains(&dwelling)
+        {
+            names.push(dwelling);
+        }
+    }
+    let criteria: Vec<usize> =
+        (0..judged.rule.criteria.len()).filter(|number| judged.rule.criteria[*number].is_of_dwellings()).collect();
+    let mut counted: Vec<Vec<DwellingSun>> = vec![Vec::new(); criteria.len()];
+    let mut groups = Vec::new();
+    for name in &names {
+        let mut uses: Vec<Vec<(String, i64)>> = vec![Vec::new(); criteria.len()];
+        let mut of = Vec::new();
+        for usage in all_of {
+            let is_own = |window: &JudgedWindow| {
+                window.dwelling.as_deref() == Some(name) && window.usage.as_ref() == Some(usage)
+            };
+            let windows: Vec<usize> = (0..judged.windows.len()).filter(|at| is_own(&judged.windows[*at])).collect();
+            of.extend(windows.iter().map(|at| judged.windows[*at].name.clone()));
+            if windows.is_empty() {
+                continue;
+            }
+            let light = union(judged, &windows);
+            for (at, number) in criteria.iter().enumerate() {
+                uses[at].push((usage.clone(), least_secs(judged, &light, *number)?));
+            }
+        }
+        let [first, ..] = uses.as_slice() else { continue };
+        groups.push(GroupRuling {
+            name: (*name).to_owned(),
+            kind: GroupKind::Dwelling,
+            dwelling: None,
+            verdict: of_uses(judged.rule, first),
+            ruling: None,
+            by_rooms: None,
+            of,
+            uses: first.clone(),
+        });
+        for (counted, uses) in counted.iter_mut().zip(uses) {
+            counted.push(DwellingSun { name: (*name).to_owned(), uses });
+        }
+    }
+    let ruling = judged.rule.judge_house(&counted)?;
+    groups.push(GroupRuling {
+        name: String::new(),
+        kind: GroupKind::House,
+        dwelling: None,
+        verdict: ruling.verdict,
+        ruling: Some(ruling),
+        by_rooms: None,
+        of: names.into_iter().map(str::to_owned).collect(),
+        uses: Vec::new(),
+    });
+    Ok(groups)
+}
+
+/// Whether a dwelling has what the rule asks of so many of them, in each of its uses.
+fn of_uses(rule: &ResolvedRule, uses: &[(String, i64)]) -> Verdict {
+    let of = |criterion: &Criterion| match (&criterion.extent, &criterion.demand) {
+        (Extent::Dwellings(_), Demand::AtLeast { secs, .. }) => Some(*secs),
+        _ => None,
+    };
+    let Some(least) = rule.criteria.iter().find_map(of) else { return Verdict::Report };
+    if uses.iter().all(|(_, secs)| *secs >= least) { Verdict::Pass } else { Verdict::Fail }
+}
+
+/// What a criterion counts on the day with the least of it.
+fn least_secs(judged: &WindowsJudged<'_>, light: &CountedLight, number: usize) -> Result<i64, StudyError> {
+    debug_assert!(judged.rule.counting.what == Counted::Sun);
+    let mut least = i64::MAX;
+    for day in light.days(judged.days) {
+        if day.day.criteria[number].is_some() {
+            least = least.min(judged.rule.tally(number, &day)?.secs);
+        }
+    }
+    Ok(if least == i64::MAX { 0 } else { least })
+}

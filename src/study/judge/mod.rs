@@ -1,0 +1,23 @@
+//! A site judged by a rule: what the rule needs, the light of each receiver to the second, and its verdicts.
+//!
+//! Points are searched exactly, as probes are, in the state that is judged and in the one before. Of areas as many points are
+//! searched as their parts need to be known.
+
+mod area_light;
+mod areas;
+mod asking;
+mod bands;
+mod days;
+mod facades;
+mod groups;
+mod judging;
+mod needs;
+mod point_light;
+mod receivers;
+mod samples;
+mod state_search;
+mod takers;
+mod whole;
+mod windows;
+
+pub use asking::judge;

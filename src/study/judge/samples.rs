@@ -1,0 +1,272 @@
+//! An area as triangles with points at their corners, split where what is asked of it changes.
+//!
+//! Within a triangle a number is taken to change evenly from corner to corner. How wrong that is shows when it is split: the
+//! sum over its four parts is another one, and by as much the whole is known no better.
+
+use super::super::StudyError;
+use super::judging::Steps;
+use crate::judgement::PartTriangle;
+use crate::sun::SunError;
+use glam::DVec3;
+use rayon::prelude::*;
+use std::collections::HashMap;
+
+/// Points are put so far within an area's border, metres: what stands at the border does not hold them.
+const INSIDE_M: f64 = 0.001;
+
+/// A leaf through which a border runs is known no better than to this part of it, though a split changed it less.
+const LEAST_ERROR: f64 = 1.0 / 16.0;
+
+/// A point of an area.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct AreaSpot {
+    /// On the area; of one on the ground on the plan.
+    pub(super) at: DVec3,
+    /// Upward from a sloped face.
+    pub(super) normal: Option<DVec3>,
+}
+
+/// What is summed over an area.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Summed {
+    /// The part of it where the number is not below 0.
+    Part,
+    /// The number itself.
+    Number,
+}
+
+/// A triangle that is not split.
+#[derive(Clone, Debug)]
+struct Leaf {
+    corners: [u32; 3],
+    m2: f64,
+    /// For each number that is asked, how much the last split changed, this leaf's part of it.
+    changed: Vec<f64>,
+}
+
+/// Sums over an area, for each number that is asked, and to how much each is known.
+#[derive(Clone, Debug, Default)]
+pub(super) struct AreaSums {
+    pub(super) sums: Vec<f64>,
+    pub(super) errors: Vec<f64>,
+}
+
+/// An area's points and triangles.
+pub(super) struct Samples {
+    pub(super) spots: Vec<AreaSpot>,
+    /// What each point has of what is asked.
+    pub(super) values: Vec<Vec<f64>>,
+    leaves: Vec<Leaf>,
+    middles: HashMap<(u32, u32), u32>,
+}
+
+/// What a point has of what is asked.
+pub(super) type Valuing<'a> = &'a (dyn Fn(&AreaSpot) -> Result<Vec<f64>, SunError> + Sync);
+
+impl Samples {
+    /// With triangles whose sides are no longer than `longest_m`.
+    pub(super) fn new(triangles: &[PartTriangle], longest_m: f64) -> Samples {
+        let mut samples =
+            Samples { spots: Vec::new(), values: Vec::new(), leaves: Vec::new(), middles: HashMap::new() };
+        for triangle in triangles {
+            let middle = triangle.corners.iter().sum::<DVec3>() / 3.0;
+            let corners = triangle.corners.map(|corner| {
+                let inward = middle - corner;
+                let by = INSIDE_M.min(inward.length() / 10.0);
+                let at = corner + inward.normalize_or_zero() * by;
+                samples.spots.push(AreaSpot { at, normal: triangle.normal });
+                samples.spots.len() as u32 - 1
+            });
+            let mut waiting = vec![(corners, triangle.m2)];
+            while let Some((corners, m2)) = waiting.pop() {
+                match samples.halved(corners, longest_m) {
+                    Some(halves) => waiting.extend(halves.map(|half| (half, m2 / 2.0))),
+                    None => samples.leaves.push(Leaf { corners, m2, changed: Vec::new() }),
+                }
+            }
+        }
+        samples
+    }
+
+    /// The halves of a triangle whose longest side is too long.
+    fn halved(&mut self, corners: [u32; 3], longest_m: f64) -> Option<[[u32; 3]; 2]> {
+        let at = |corner: u32| self.spots[corner as usize].at;
+        let length = |first: usize| at(corners[first]).distance(at(corners[(first + 1) % 3]));
+        let longest = (0..3).max_by(|one, other| length(*one).total_cmp(&length(*other)))?;
+        if length(longest) <= longest_m {
+            return None;
+        }
+        let [a, b, c] = [0, 1, 2].map(|step| corners[(longest + step) % 3]);
+        let middle = self.middle(a, b);
+        Some([[a, middle, c], [middle, b, c]])
+    }
+
+    fn middle(&mut self, one: u32, other: u32) -> u32 {
+        let key = (one.min(other), one.max(other));
+        let spots = &mut self.spots;
+        *self.middles.entry(key).or_insert_with(|| {
+            let [a, b] = [key.0, key.1].map(|corner| spots[corner as usize]);
+            spots.push(AreaSpot { at: (a.at + b.at) / 2.0, normal: a.normal });
+            spots.len() as u32 - 1
+        })
+    }
+
+    /// Asks the points that are new.
+    pub(super) fn ask(&mut self, value: Valuing<'_>, steps: &mut Steps<'_, '_>) -> Result<(), StudyError> {
+        const TOGETHER: usize = 512;
+        while self.values.len() < self.spots.len() {
+            let from = self.values.len();
+            let some = &self.spots[from..self.spots.len().min(from + TOGETHER)];
+            let found: Vec<_> = some.par_iter().map(value).collect::<Result<_, _>>()?;
+            self.values.extend(found);
+            steps.poll()?;
+        }
+        Ok(())
+    }
+
+    fn of_leaf(&self, corners: [u32; 3], number: usize) -> [f64; 3] {
+        corners.map(|corner| self.values[corner as usize][number])
+    }
+
+    /// The sums as they are known now.
+    pub(super) fn sums(&self, kinds: &[Summed]) -> AreaSums {
+        let of = |number: usize| -> (f64, f64) {
+            let leaf = |leaf: &Leaf| {
+                let three = self.of_leaf(leaf.corners, number);
+                let changed = leaf.changed.get(number).copied().unwrap_or(0.0);
+                let floor = if is_open(kinds[number], three) { leaf.m2 * LEAST_ERROR } else { 0.0 };
+                let floor = if kinds[number] == Summed::Part { floor } else { 0.0 };
+                (leaf.m2 * part(kinds[number], three), changed.max(floor))
+            };
+            self.leaves.iter().map(leaf).fold((0.0, 0.0), |sum, of| (sum.0 + of.0, sum.1 + of.1))
+        };
+        let (sums, errors) = (0..kinds.len()).map(of).unzip();
+        AreaSums { sums, errors }
+    }
+
+    /// Splits the triangles in which what is asked changes, until all sums are known as well as `is_good` wants them, or there
+    /// are `most` points.
+    pub(super) fn refine(
+        &mut self,
+        kinds: &[Summed],
+        value: Valuing<'_>,
+        (is_good, most): (&dyn Fn(&AreaSums) -> bool, usize),
+        steps: &mut Steps<'_, '_>,
+    ) -> Result<AreaSums, StudyError> {
+        /// As often at least all triangles are split in which it changes or may.
+        const AT_LEAST: usize = 2;
+        const AT_MOST: usize = 12;
+        self.ask(value, steps)?;
+        let mut sums = self.sums(kinds);
+        for pass in 0..AT_MOST {
+            if pass >= AT_LEAST && is_good(&sums) || self.spots.len() > most {
+                break;
+            }
+            let leaves = std::mem::take(&mut self.leaves);
+            let is_split = |leaf: &Leaf| {
+                (0..kinds.len()).any(|number| {
+                    let three = self.of_leaf(leaf.corners, number);
+                    is_open(kinds[number], three) || pass < AT_LEAST && is_near(kinds[number], three)
+                })
+            };
+            let (split, kept): (Vec<Leaf>, Vec<Leaf>) = leaves.into_iter().partition(is_split);
+            self.leaves = kept;
+            if split.is_empty() {
+                break;
+            }
+            self.split(split, kinds, value, steps)?;
+            sums = self.sums(kinds);
+        }
+        Ok(sums)
+    }
+
+    /// Splits leaves into four each, and notes by how much that changes them.
+    fn split(
+        &mut self,
+        leaves: Vec<Leaf>,
+        kinds: &[Summed],
+        value: Valuing<'_>,
+        steps: &mut Steps<'_, '_>,
+    ) -> Result<(), StudyError> {
+        let quarters: Vec<[[u32; 3]; 4]> = leaves.iter().map(|leaf| self.quarters(leaf.corners)).collect();
+        self.ask(value, steps)?;
+        for (leaf, quarters) in leaves.into_iter().zip(quarters) {
+            let quarter_m2 = leaf.m2 / 4.0;
+            let changed = |number: usize| {
+                let whole = leaf.m2 * part(kinds[number], self.of_leaf(leaf.corners, number));
+                let of = |corners: [u32; 3]| quarter_m2 * part(kinds[number], self.of_leaf(corners, number));
+                (whole - quarters.into_iter().map(of).sum::<f64>()).abs() / 4.0
+            };
+            let changed: Vec<f64> = (0..kinds.len()).map(changed).collect();
+            for corners in quarters {
+                self.leaves.push(Leaf { corners, m2: quarter_m2, changed: changed.clone() });
+            }
+        }
+        Ok(())
+    }
+
+    fn quarters(&mut self, [a, b, c]: [u32; 3]) -> [[u32; 3]; 4] {
+        let [ab, bc, ca] = [[a, b], [b, c], [c, a]].map(|[one, other]| self.middle(one, other));
+        [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
+    }
+
+    /// Splits the triangles around the lowest of a single number, again and again, and returns the point that has it and by
+    /// how much the last splits lowered it.
+    pub(super) fn lowest(&mut self, value: Valuing<'_>, steps: &mut Steps<'_, '_>) -> Result<(usize, f64), StudyError> {
+        const PASSES: usize = 8;
+        const TOGETHER: usize = 12;
+        self.ask(value, steps)?;
+        let mut lowered = [0.0; 2];
+        let mut lowest = self.lowest_spot();
+        for _ in 0..PASSES {
+            let leaves = std::mem::take(&mut self.leaves);
+            let of = |leaf: &Leaf| self.of_leaf(leaf.corners, 0).into_iter().fold(f64::INFINITY, f64::min);
+            let mut order: Vec<(f64, Leaf)> = leaves.into_iter().map(|leaf| (of(&leaf), leaf)).collect();
+            order.sort_by(|one, other| one.0.total_cmp(&other.0).then(other.1.m2.total_cmp(&one.1.m2)));
+            let kept = order.split_off(order.len().min(TOGETHER));
+            self.leaves = kept.into_iter().map(|(_, leaf)| leaf).collect();
+            self.split(order.into_iter().map(|(_, leaf)| leaf).collect(), &[Summed::Number], value, steps)?;
+            let now = self.lowest_spot();
+            lowered = [lowered[1], self.values[lowest][0] - self.values[now][0]];
+            lowest = now;
+        }
+        Ok((lowest, lowered.into_iter().sum()))
+    }
+
+    fn lowest_spot(&self) -> usize {
+        let value = |spot: &usize| self.values[*spot][0];
+        (0..self.values.len()).min_by(|one, other| value(one).total_cmp(&value(other))).unwrap_or(0)
+    }
+}
+
+/// Whether a triangle may be otherwise within than at its corners.
+fn is_open(kind: Summed, three: [f64; 3]) -> bool {
+    match kind {
+        Summed::Part => three.iter().any(|value| *value >= 0.0) && three.iter().any(|value| *value < 0.0),
+        Summed::Number => three.iter().any(|value| *value != three[0]),
+    }
+}
+
+/// Whether the number would pass 0 if it changed once more as much as it does in the triangle.
+fn is_near(kind: Summed, three: [f64; 3]) -> bool {
+    let [low, high] =
+        [three.iter().copied().fold(f64::INFINITY, f64::min), three.iter().copied().fold(f64::NEG_INFINITY, f64::max)];
+    let nearest = three.iter().map(|value| value.abs()).fold(f64::INFINITY, f64::min);
+    kind == Summed::Part && nearest <= high - low
+}
+
+/// The part of a triangle in which a number that changes evenly is not below 0; or the number's mean.
+fn part(kind: Summed, three: [f64; 3]) -> f64 {
+    if kind == Summed::Number {
+        return three.iter().sum::<f64>() / 3.0;
+    }
+    let mut sorted = three;
+    sorted.sort_by(f64::total_cmp);
+    match sorted {
+        [low, ..] if low >= 0.0 => 1.0,
+        [.., high] if high < 0.0 => 0.0,
+        // one corner is kept
+        [low, middle, high] if middle < 0.0 => high * high / ((high - middle) * (high - low)),
+        [low, middle, high] => 1.0 - low * low / ((middle - low) * (high - low)),
+    }
+}

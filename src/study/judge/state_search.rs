@@ -1,0 +1,128 @@
+//! One state of a site, ready for points to be searched.
+
+use super::super::ground_heights::GroundHeights;
+use super::days::JudgedDays;
+use crate::judgement::{LitSpell, SpellBound, clipped};
+use crate::mesh::Mesh;
+use crate::rules::Spell;
+use crate::shadow::JUDGED_ABOVE_M;
+use crate::site::JudgedState;
+use crate::sun::SunError;
+use crate::sunlight::{Interval, IntervalBound, JudgedPoint, ProbeSearch};
+use glam::DVec3;
+
+/// What lies no farther before a plane than this belongs to the wall in it, metres.
+const IN_PLANE_M: f64 = 0.005;
+
+/// The casters of a state, and its ground.
+pub(super) struct StateSearch {
+    search: ProbeSearch,
+    /// The mesh's index of each of the casters' components.
+    components: Vec<u32>,
+    ground: GroundHeights,
+}
+
+/// A level or sloped plane, by its normal and how far it lies along that.
+pub(super) type WallPlane = (DVec3, f64);
+
+impl StateSearch {
+    /// For points that lie no farther out than these.
+    pub(super) fn of(state: &JudgedState, points: &[DVec3]) -> StateSearch {
+        let components = (0..).zip(&state.casts).filter(|(_, casts)| **casts).map(|(at, _)| at).collect();
+        StateSearch::with(state, state.mesh.of_components(&state.casts), components, points)
+    }
+
+    /// With what lies before a plane alone: a wall, and what stands behind its outer side, is left out.
+    pub(super) fn before_plane(state: &JudgedState, wall: WallPlane, points: &[DVec3]) -> StateSearch {
+        let mesh = &*state.mesh;
+        let is_before = is_before(mesh, wall);
+        let of = |face: u32| mesh.components.partition_point(|component| component.faces.end <= face);
+        let keep = |face: u32| state.casts[of(face)] && is_before(face);
+        let mut components: Vec<u32> =
+            (0..mesh.faces.len() as u32).filter(|face| keep(*face)).map(|face| of(face) as u32).collect();
+        components.dedup();
+        StateSearch::with(state, mesh.of_faces(keep), components, points)
+    }
+
+    /// With one component alone, before a wall, where there is one. It knows no terrain: its points are judged already.
+    pub(super) fn of_component(
+        state: &JudgedState,
+        component: u32,
+        wall: Option<WallPlane>,
+        points: &[DVec3],
+    ) -> StateSearch {
+        let keep: Vec<bool> = (0..state.mesh.components.len()).map(|at| at == component as usize).collect();
+        let mut casters = state.mesh.of_components(&keep);
+        if let Some(wall) = wall {
+            casters = casters.of_faces(is_before(&casters, wall));
+        }
+        let search = ProbeSearch::new(casters, &reach(points));
+        StateSearch { search, components: vec![component], ground: GroundHeights::plane(state.ground.level) }
+    }
+
+    fn with(state: &JudgedState, casters: Mesh, components: Vec<u32>, points: &[DVec3]) -> StateSearch {
+        let ground = GroundHeights::of(&state.mesh, &state.ground, points);
+        StateSearch { search: ProbeSearch::new(casters, &reach(points)), components, ground }
+    }
+
+    /// A point on a plane, judged a millimetre before it.
+    pub(super) fn in_plane(&self, point: DVec3, normal: DVec3) -> JudgedPoint {
+        self.ground.judge(point + normal * JUDGED_ABOVE_M, Some(normal))
+    }
+
+    /// A point in the air, or inside an opening, that sees what is before it.
+    pub(super) fn free(&self, point: DVec3, normal: Option<DVec3>) -> JudgedPoint {
+        self.ground.judge(point, normal)
+    }
+
+    /// A point on a level plane, judged a millimetre above it.
+    pub(super) fn at_level(&self, point: DVec3) -> JudgedPoint {
+        self.free(point + DVec3::Z * JUDGED_ABOVE_M, None)
+    }
+
+    /// A point so far above the ground, a millimetre more.
+    pub(super) fn above_ground(&self, point: DVec3, above_m: f64) -> JudgedPoint {
+        self.free(point.with_z(self.ground.height(point) + above_m + JUDGED_ABOVE_M), None)
+    }
+
+    /// When a point is in the sun within spells of each day, with what bounds that.
+    pub(super) fn lit(
+        &self,
+        at: &JudgedPoint,
+        days: &JudgedDays<'_>,
+        open: &[Vec<Spell>],
+    ) -> Result<Vec<Vec<LitSpell>>, SunError> {
+        let intervals = days.intervals(&self.search, at)?;
+        let of_day = |((found, windows), open): ((Vec<Interval>, &Vec<Spell>), &Vec<Spell>)| {
+            let lit: Vec<LitSpell> = found.iter().map(|interval| self.spell(interval)).collect();
+            clipped(&clipped(&lit, windows, SpellBound::Window), open, SpellBound::Cut)
+        };
+        Ok(intervals.into_iter().zip(&days.windows).zip(open).map(of_day).collect())
+    }
+
+    fn spell(&self, interval: &Interval) -> LitSpell {
+        let bound = |bound: IntervalBound| match bound {
+            IntervalBound::Window => SpellBound::Window,
+            IntervalBound::Horizon => SpellBound::Horizon,
+            IntervalBound::Behind => SpellBound::Behind,
+            IntervalBound::Ground => SpellBound::Ground,
+            IntervalBound::Component(at) => SpellBound::Component(self.components[at]),
+        };
+        LitSpell {
+            spell: Spell::new(interval.start.timestamp(), interval.end.timestamp()),
+            before: bound(interval.before),
+            after: bound(interval.after),
+        }
+    }
+}
+
+/// Points as a search needs them to know how far out they lie.
+fn reach(points: &[DVec3]) -> Vec<JudgedPoint> {
+    points.iter().map(|point| JudgedPoint { point: *point, normal: None, below_ground_m: None }).collect()
+}
+
+/// Which faces reach before a plane.
+fn is_before(mesh: &Mesh, (normal, along): WallPlane) -> impl Fn(u32) -> bool {
+    let limit = along + IN_PLANE_M - normal.dot(mesh.origin);
+    move |face| mesh.corners(face as usize).iter().any(|corner| normal.dot(corner.as_dvec3()) > limit)
+}

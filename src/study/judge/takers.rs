@@ -1,0 +1,171 @@
+//! Who takes the sun: each component's own shade on a day, and what of it no other one shades, too.
+
+use super::super::StudyError;
+use super::days::{JudgedDays, time};
+use super::judging::Judging;
+use super::state_search::{StateSearch, WallPlane};
+use crate::judgement::{Taker, spells_of};
+use crate::rules::{Spell, common, merged, total_secs, without};
+use crate::sun::{Air, Sky, SunError, delta_t_secs};
+use crate::sunlight::JudgedPoint;
+use glam::DVec3;
+use rayon::prelude::*;
+use std::collections::HashMap;
+
+/// From sun to sun along which components are sought, seconds.
+const STEP_SECS: usize = 60;
+
+/// More than the sun moves in half of that, radians; boxes are widened by it.
+const HALF_STEP_RAD: f64 = 0.0025;
+
+/// A receiver on a day: lit where all of its points are.
+pub(super) struct ShadedPoints {
+    pub(super) points: Vec<JudgedPoint>,
+    /// When a sun that counts would shine on each of them.
+    pub(super) open: Vec<Vec<Spell>>,
+    /// Before which wall alone components stand in the way.
+    pub(super) wall: Option<WallPlane>,
+}
+
+/// One day, and what was found for its receivers.
+pub(super) struct TakerSearch<'a> {
+    judging: &'a Judging<'a>,
+    day: JudgedDays<'a>,
+    suns: Vec<(i64, DVec3)>,
+    /// The casting components, each with its box.
+    boxes: Vec<(u32, [DVec3; 2])>,
+    reach: Vec<DVec3>,
+    /// Those that were asked, with the wall before which they were.
+    searches: HashMap<(u32, Option<[u64; 4]>), StateSearch>,
+}
+
+fn key(wall: Option<WallPlane>) -> Option<[u64; 4]> {
+    wall.map(|(normal, along)| [normal.x, normal.y, normal.z, along].map(f64::to_bits))
+}
+
+impl<'a> TakerSearch<'a> {
+    /// Of one day, for points no farther out than these.
+    pub(super) fn new(
+        judging: &'a Judging<'a>,
+        day: JudgedDays<'a>,
+        reach: Vec<DVec3>,
+    ) -> Result<TakerSearch<'a>, StudyError> {
+        let site = judging.site;
+        let air = site.refraction.then(|| Air::standard(site.place.elevation_m));
+        let mut suns = Vec::new();
+        for window in &day.windows[0] {
+            let from = time(&site.place, window.start);
+            let sky = Sky { place: &site.place, delta_t_secs: delta_t_secs(from.to_utc())?, air };
+            for secs in (window.start..window.end).step_by(STEP_SECS) {
+                suns.push((secs, sky.at(time(&site.place, secs))?.to_sun));
+            }
+        }
+        let mesh = &*site.now.mesh;
+        let boxes = (0u32..)
+            .zip(&mesh.components)
+            .zip(&site.now.casts)
+            .filter(|(_, casts)| **casts)
+            .filter_map(|((at, component), _)| {
+                let (low, high) = mesh.bounds_of(component.faces.clone())?;
+                Some((at, [low, high]))
+            })
+            .collect();
+        Ok(TakerSearch { judging, day, suns, boxes, reach, searches: HashMap::new() })
+    }
+
+    /// Who takes the sun of a receiver, the greatest taker first.
+    pub(super) fn takers(&mut self, of: &ShadedPoints, shaded: &[Spell]) -> Result<Vec<Taker>, StudyError> {
+        let candidates = self.candidates(of, shaded);
+        let missing: Vec<u32> =
+            candidates.iter().copied().filter(|at| !self.searches.contains_key(&(*at, key(of.wall)))).collect();
+        let state = &self.judging.site.now;
+        let built: Vec<_> = missing
+            .par_iter()
+            .map(|at| ((*at, key(of.wall)), StateSearch::of_component(state, *at, of.wall, &self.reach)))
+            .collect();
+        self.searches.extend(built);
+        // for each point each candidate's own shade
+        let shades: Vec<Vec<Vec<Spell>>> = of
+            .points
+            .iter()
+            .zip(&of.open)
+            .map(|(point, open)| {
+                candidates.par_iter().map(|at| self.shade(*at, of.wall, point, open)).collect::<Result<_, SunError>>()
+            })
+            .collect::<Result<_, _>>()?;
+        let mut takers = Vec::new();
+        for (number, component) in candidates.iter().enumerate() {
+            let all = merged(shades.iter().flat_map(|point| point[number].iter().copied()));
+            let taken = common(&all, shaded);
+            if taken.is_empty() {
+                continue;
+            }
+            // dark still where others shade any of the points
+            let others = |point: &Vec<Vec<Spell>>| -> Vec<Spell> {
+                let others = point.iter().enumerate().filter(|(at, _)| *at != number);
+                others.flat_map(|(_, spells)| spells.iter().copied()).collect()
+            };
+            let others = merged(shades.iter().flat_map(others));
+            let alone_secs = total_secs(&without(&taken, &others)) as f64;
+            let with_others_secs = total_secs(&taken) as f64 - alone_secs;
+            takers.push(Taker { component: *component, alone_secs, with_others_secs });
+        }
+        sort(&mut takers);
+        Ok(takers)
+    }
+
+    /// When a component alone shades a point.
+    fn shade(
+        &self,
+        component: u32,
+        wall: Option<WallPlane>,
+        point: &JudgedPoint,
+        open: &[Spell],
+    ) -> Result<Vec<Spell>, SunError> {
+        let search = &self.searches[&(component, key(wall))];
+        let lit = search.lit(point, &self.day, std::slice::from_ref(&open.to_vec()))?;
+        Ok(without(open, &spells_of(&lit[0])))
+    }
+
+    /// The components whose boxes stand before the sun in these spells.
+    fn candidates(&self, of: &ShadedPoints, shaded: &[Spell]) -> Vec<u32> {
+        let step = STEP_SECS as i64;
+        let is_shaded = |secs: i64| shaded.iter().any(|spell| spell.start - step <= secs && secs < spell.end + step);
+        let suns: Vec<DVec3> =
+            self.suns.iter().filter(|(secs, _)| is_shaded(*secs)).map(|(_, to_sun)| *to_sun).collect();
+        let stands = |(_, bounds): &&(u32, [DVec3; 2])| {
+            of.points.iter().any(|at| {
+                let wide = widened(bounds, at.point);
+                suns.iter().any(|to_sun| meets(&wide, at.point, *to_sun))
+            })
+        };
+        self.boxes.par_iter().filter(stands).map(|(at, _)| *at).collect()
+    }
+}
+
+/// The greatest taker first: who takes most alone, then who takes most.
+pub(super) fn sort(takers: &mut [Taker]) {
+    let all = |taker: &Taker| taker.alone_secs + taker.with_others_secs;
+    takers.sort_by(|one, other| {
+        other
+            .alone_secs
+            .total_cmp(&one.alone_secs)
+            .then(all(other).total_cmp(&all(one)))
+            .then(one.component.cmp(&other.component))
+    });
+}
+
+fn widened([low, high]: &[DVec3; 2], point: DVec3) -> [DVec3; 2] {
+    let far = (low - point).abs().max((high - point).abs()).length();
+    let by = DVec3::splat(far * HALF_STEP_RAD + 0.01);
+    [low - by, high + by]
+}
+
+/// Whether a ray meets a box.
+fn meets([low, high]: &[DVec3; 2], from: DVec3, along: DVec3) -> bool {
+    let (one, other) = ((low - from) / along, (high - from) / along);
+    // where the ray runs within a side's plane the quotient is none, and that side cuts nothing
+    let near = one.min(other).to_array().into_iter().filter(|at| !at.is_nan()).fold(0.0, f64::max);
+    let far = one.max(other).to_array().into_iter().filter(|at| !at.is_nan()).fold(f64::INFINITY, f64::min);
+    near <= far
+}

@@ -1,0 +1,169 @@
+//! What all receivers come to together, and what is told with it.
+
+use super::super::StudyError;
+use super::days::JudgedDays;
+use super::judging::{Judging, Steps};
+use super::receivers::{ShadedReceiver, deciding_day};
+use super::takers::{ShadedPoints, TakerSearch, sort};
+use crate::judgement::{GroupKind, GroupRuling, JudgedThing, ReceiverRuling, Taker};
+use crate::message::Message;
+use crate::rules::{CompareWith, Finding, ResolvedRule, RuleDay, RuleReceiver, Ruling, Verdict, without};
+use crate::site::AreaSurface;
+use crate::sun::DayWindow;
+use glam::DVec3;
+use std::collections::{BTreeMap, HashMap};
+
+/// For each day the verdict of all that is judged on it.
+pub(super) fn day_verdicts(
+    rule: &ResolvedRule,
+    days: &[RuleDay],
+    receivers: &[ReceiverRuling],
+    groups: &[GroupRuling],
+) -> Vec<Verdict> {
+    // rooms stand for their windows where these are added up
+    let of_rooms: Vec<&Ruling> =
+        groups.iter().filter(|group| group.kind == GroupKind::Room).filter_map(|group| group.ruling.as_ref()).collect();
+    let rulings: Vec<&Ruling> =
+        if of_rooms.is_empty() { receivers.iter().map(|receiver| &receiver.ruling).collect() } else { of_rooms };
+    let graded = rule.criteria.iter().any(|criterion| criterion.grade.is_some());
+    let of_ruling = |ruling: &Ruling, day: &RuleDay| {
+        let on_day: Vec<&Finding> = ruling.findings.iter().filter(|finding| finding.date == Some(day.date)).collect();
+        match on_day.as_slice() {
+            [] => Verdict::Report,
+            [first, ..] if graded => first.verdict,
+            findings if rule.any => Verdict::any(findings.iter().map(|finding| finding.verdict)),
+            findings => Verdict::all(findings.iter().map(|finding| finding.verdict)),
+        }
+    };
+    days.iter().map(|day| Verdict::all(rulings.iter().map(|ruling| of_ruling(ruling, day)))).collect()
+}
+
+/// The lowest grade of all: of dwellings that of their best room.
+pub(super) fn grade(
+    rule: &ResolvedRule,
+    verdict: Verdict,
+    receivers: &[ReceiverRuling],
+    groups: &[GroupRuling],
+) -> Option<String> {
+    if verdict != Verdict::Pass {
+        return None;
+    }
+    let step = |ruling: &Ruling| {
+        let grade = ruling.grade.as_ref()?;
+        rule.criteria.iter().position(|criterion| criterion.grade.as_ref() == Some(grade))
+    };
+    let rooms = || groups.iter().filter(|group| group.kind == GroupKind::Room);
+    let of_room = |group: &GroupRuling| group.ruling.as_ref().and_then(step);
+    let dwellings = groups.iter().filter(|group| group.kind == GroupKind::Dwelling);
+    let of_dwellings: Vec<Option<usize>> = dwellings
+        .map(|dwelling| rooms().filter(|room| room.dwelling.as_ref() == Some(&dwelling.name)).filter_map(of_room).max())
+        .collect();
+    let steps: Vec<Option<usize>> = match (of_dwellings.is_empty(), rooms().count()) {
+        (false, _) => of_dwellings,
+        (true, 0) => receivers.iter().map(|receiver| step(&receiver.ruling)).collect(),
+        (true, _) => rooms().map(of_room).collect(),
+    };
+    let lowest = steps.into_iter().collect::<Option<Vec<usize>>>()?.into_iter().min()?;
+    rule.criteria[lowest].grade.clone()
+}
+
+/// Finds who takes the sun of all that do not pass, on the day that decides.
+pub(super) fn with_takers(
+    judging: &Judging<'_>,
+    hulls: &[DayWindow],
+    receivers: &mut [(ReceiverRuling, ShadedReceiver)],
+    steps: &mut Steps<'_, '_>,
+) -> Result<(), StudyError> {
+    let mut by_day: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    let mut reach: Vec<DVec3> = Vec::new();
+    for (number, (receiver, shaded)) in receivers.iter().enumerate() {
+        if receiver.ruling.verdict != Verdict::Pass {
+            by_day.entry(deciding_day(judging, receiver)).or_default().push(number);
+            reach.extend(shaded.parts.iter().flat_map(|part| &part.points).map(|at| at.point));
+        }
+    }
+    for (day, numbers) in by_day {
+        let of_day =
+            JudgedDays::new(judging.site, judging.rule.cuts, &judging.days.days[day..=day], &hulls[day..=day])?;
+        let mut search = TakerSearch::new(judging, of_day, reach.clone())?;
+        for number in numbers {
+            let (receiver, shaded) = &mut receivers[number];
+            receiver.takers = takers(&mut search, shaded, day)?;
+            steps.poll()?;
+        }
+    }
+    Ok(())
+}
+
+/// The takers of a receiver, by the mean over its parts.
+fn takers(search: &mut TakerSearch<'_>, shaded: &ShadedReceiver, day: usize) -> Result<Vec<Taker>, StudyError> {
+    let mut sums: HashMap<u32, [f64; 2]> = HashMap::new();
+    for part in &shaded.parts {
+        let open = part.open[day].clone();
+        let dark = without(&open, &part.lit[day]);
+        let points =
+            ShadedPoints { points: part.points.clone(), open: vec![open; part.points.len()], wall: shaded.wall };
+        for taker in search.takers(&points, &dark)? {
+            let sum = sums.entry(taker.component).or_default();
+            sum[0] += taker.alone_secs;
+            sum[1] += taker.with_others_secs;
+        }
+    }
+    let parts = shaded.parts.len().max(1) as f64;
+    let of = |(component, [alone, with]): (u32, [f64; 2])| Taker {
+        component,
+        alone_secs: alone / parts,
+        with_others_secs: with / parts,
+    };
+    let mut takers: Vec<Taker> = sums.into_iter().map(of).collect();
+    sort(&mut takers);
+    Ok(takers)
+}
+
+/// What the user should know of how it was judged.
+pub(super) fn notes(judging: &Judging<'_>, receivers: &[ReceiverRuling]) -> Vec<Message> {
+    let mut notes: Vec<String> = Vec::new();
+    let site = judging.site;
+    match &judging.rule.receiver {
+        RuleReceiver::Area { least_width_m } => {
+            let is_of_faces = |surface: &AreaSurface| matches!(surface, AreaSurface::Faces(_));
+            if *least_width_m > 0.0 && site.areas.iter().any(|area| is_of_faces(&area.surface)) {
+                notes.push(format!(
+                    "parts narrower than {least_width_m} m do not count, and of areas that are a component's faces the width \
+                     is not tested"
+                ));
+            }
+        }
+        RuleReceiver::Window { .. } => {
+            let inside = receivers.iter().any(|receiver| receiver.kind == JudgedThing::Window)
+                && site.windows.iter().any(|window| is_inside(judging, window));
+            if inside {
+                notes.push(
+                    "a point inside sees the sun through the rectangle of its glass, carried to the wall's outer plane; what \
+                     the models have behind that plane casts no shadow on it"
+                        .to_owned(),
+                );
+            }
+        }
+        RuleReceiver::Lines { .. } => notes.push(
+            "shadow of all components that cast is counted; where the rule is of the building alone, leave others out of \
+             those that cast"
+                .to_owned(),
+        ),
+        RuleReceiver::Facade => {}
+    }
+    if judging.rule.compare == Some(CompareWith::Reference) {
+        notes.push("no body that the law allows is compared, so nothing is excused by one".to_owned());
+    }
+    if receivers.iter().any(|receiver| receiver.ruling.verdict == Verdict::Close) {
+        notes.push(
+            "where a number is closer to its limit than it is known, the verdict is close: neither kept nor missed"
+                .to_owned(),
+        );
+    }
+    notes.into_iter().map(Message::from).collect()
+}
+
+fn is_inside(judging: &Judging<'_>, window: &crate::site::JudgedWindow) -> bool {
+    crate::judgement::window_spot(&judging.rule.receiver, window).is_some_and(|spot| spot.through.is_some())
+}

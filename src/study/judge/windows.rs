@@ -1,0 +1,139 @@
+//! The light of windows.
+
+use super::super::StudyError;
+use super::judging::{BothStates, Judging, Steps};
+use super::point_light::PointLight;
+use super::state_search::{StateSearch, WallPlane};
+use crate::judgement::{SpellBound, WindowSpot, both, clipped, window_spot};
+use crate::rules::{Spell, common};
+use crate::site::JudgedWindow;
+use crate::sun::SunError;
+use glam::DVec3;
+use rayon::prelude::*;
+use std::collections::{BTreeMap, HashMap};
+
+/// So many windows are searched between two looks at the listener.
+const TOGETHER: usize = 64;
+
+/// A window, and when it is lit.
+pub(super) struct WindowLight {
+    pub(super) spot: WindowSpot,
+    pub(super) light: PointLight,
+}
+
+/// When a sun that counts would shine on windows that look one way, on each day.
+type OpenByNormal = HashMap<[u64; 3], Vec<Vec<Spell>>>;
+
+/// Of the wall before a point inside; what lies in it and behind it does not hold the sun.
+pub(super) fn wall_plane(spot: &WindowSpot) -> Option<WallPlane> {
+    spot.through.as_ref().map(|opening| (opening.outward, opening.plane_m()))
+}
+
+/// The light of all windows, in their order.
+pub(super) fn windows(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<Vec<WindowLight>, StudyError> {
+    let windows = &judging.site.windows;
+    let spots: Vec<WindowSpot> = windows
+        .iter()
+        // what is not said is asked for before
+        .map(|window| {
+            window_spot(&judging.rule.receiver, window).unwrap_or(WindowSpot { points: Vec::new(), through: None })
+        })
+        .collect();
+    let open = open_by_normal(judging, windows);
+    let mut walls: BTreeMap<Option<[i64; 4]>, Vec<usize>> = BTreeMap::new();
+    for (number, spot) in spots.iter().enumerate() {
+        walls.entry(wall_plane(spot).map(rounded)).or_default().push(number);
+    }
+    let mut found: Vec<Option<PointLight>> = vec![None; windows.len()];
+    for numbers in walls.into_values() {
+        let points: Vec<DVec3> = numbers.iter().flat_map(|number| spots[*number].points.iter().copied()).collect();
+        let searches = match numbers.first().and_then(|first| wall_plane(&spots[*first])) {
+            Some(wall) => judging.both(|state| StateSearch::before_plane(state, wall, &points)),
+            None => judging.states(&points),
+        };
+        for some in numbers.chunks(TOGETHER) {
+            let of = |number: &usize| {
+                let (window, spot) = (&windows[*number], &spots[*number]);
+                light(judging, &searches, (window, spot), &open[&bits(window.outward)])
+            };
+            let lights: Vec<PointLight> = some.par_iter().map(of).collect::<Result<_, _>>()?;
+            some.iter().zip(lights).for_each(|(number, light)| found[*number] = Some(light));
+            steps.done(some.len())?;
+        }
+    }
+    let of = |(spot, light): (WindowSpot, Option<PointLight>)| {
+        let none = || PointLight { open: Vec::new(), now: Vec::new(), before: None };
+        WindowLight { spot, light: light.unwrap_or_else(none) }
+    };
+    Ok(spots.into_iter().zip(found).map(of).collect())
+}
+
+fn bits(normal: DVec3) -> [u64; 3] {
+    normal.to_array().map(f64::to_bits)
+}
+
+/// Walls in one plane have one search: to a millimetre.
+fn rounded((normal, along): WallPlane) -> [i64; 4] {
+    let normal = (normal * 1e6).round();
+    [normal.x as i64, normal.y as i64, normal.z as i64, (along * 1e3).round() as i64]
+}
+
+fn open_by_normal(judging: &Judging<'_>, windows: &[JudgedWindow]) -> OpenByNormal {
+    let mut normals: Vec<DVec3> = windows.iter().map(|window| window.outward).collect();
+    normals.sort_by_key(|normal| bits(*normal));
+    normals.dedup();
+    normals.into_par_iter().map(|normal| (bits(normal), judging.days.open(Some(normal)))).collect()
+}
+
+/// A window is lit where all of its points are.
+fn light(
+    judging: &Judging<'_>,
+    searches: &BothStates,
+    (window, spot): (&JudgedWindow, &WindowSpot),
+    open: &[Vec<Spell>],
+) -> Result<PointLight, SunError> {
+    let mut whole: Option<PointLight> = None;
+    for point in &spot.points {
+        let one = light_of_point(judging, searches, (window, spot, *point), open)?;
+        whole = Some(match whole {
+            None => one,
+            Some(whole) => together(whole, one),
+        });
+    }
+    Ok(whole.unwrap_or(PointLight { open: Vec::new(), now: Vec::new(), before: None }))
+}
+
+fn light_of_point(
+    judging: &Judging<'_>,
+    searches: &BothStates,
+    (window, spot, point): (&JudgedWindow, &WindowSpot, DVec3),
+    open: &[Vec<Spell>],
+) -> Result<PointLight, SunError> {
+    let of_state = |search: &StateSearch| -> Result<_, SunError> {
+        let at = match spot.through {
+            Some(_) => search.free(point, Some(window.outward)),
+            None => search.in_plane(point, window.outward),
+        };
+        search.lit(&at, judging.days, open)
+    };
+    let (mut now, mut before) = (of_state(&searches.now)?, searches.before.as_ref().map(of_state).transpose()?);
+    let mut open = open.to_vec();
+    if let Some(opening) = &spot.through {
+        open = judging.days.before_planes(&open, &opening.planes_from(point));
+        for lit in std::iter::once(&mut now).chain(before.as_mut()) {
+            for (lit, open) in lit.iter_mut().zip(&open) {
+                *lit = clipped(lit, open, SpellBound::Reveal);
+            }
+        }
+    }
+    Ok(PointLight { open, now, before })
+}
+
+fn together(one: PointLight, other: PointLight) -> PointLight {
+    let lit = |one: &[Vec<_>], other: &[Vec<_>]| one.iter().zip(other).map(|(a, b)| both(a, b)).collect();
+    PointLight {
+        open: one.open.iter().zip(&other.open).map(|(a, b)| common(a, b)).collect(),
+        now: lit(&one.now, &other.now),
+        before: one.before.as_deref().zip(other.before.as_deref()).map(|(one, other)| lit(one, other)),
+    }
+}

@@ -1,0 +1,57 @@
+//! The plane around a plot.
+
+use super::{corner, judged, site};
+use crate::shared::dense::cuboid;
+use glam::dvec3;
+use gnomon::rules::Verdict;
+use gnomon::site::{JudgedPlot, JudgedSite, PlotSide};
+use gnomon::sun::Place;
+
+const JAPAN: &str = "jp-bsa-56-2";
+
+/// A box of 20 by 10 m, 6 m above the plane at 1.5 m, on a plot that is 2 m wider all round.
+fn boxed() -> JudgedSite {
+    let place = Place::new("", 35.0, 135.0, 0.0, Some("Asia/Tokyo")).expect("a place");
+    let mut asked = site(place, vec![cuboid("box", dvec3(-10.0, -5.0, 0.0), dvec3(10.0, 5.0, 7.5))], None);
+    let border = vec![corner(-12.0, -7.0), corner(12.0, -7.0), corner(12.0, 7.0), corner(-12.0, 7.0)];
+    asked.plot = Some(JudgedPlot { border, sides: vec![PlotSide::default(); 4], mean_ground: Some(0.0) });
+    asked
+}
+
+fn options(far: &'static str) -> [(&'static str, &'static str); 4] {
+    [("plane", "1.5"), ("near", "5h"), ("far", far), ("corners", "mitred")]
+}
+
+/// By samples of 0.25 m on mitred lines the worst of the 10 m line is 1.549 h at (±18.75, 17) and of the 5 m line 8 h.
+#[test]
+fn the_worst_of_each_line_is_found() {
+    let found = judged(&boxed(), JAPAN, &options("1h30"));
+    let [near, far] = found.receivers.as_slice() else { panic!("two bands") };
+    let hours = |of| super::value_secs(of) as f64 / 3600.0;
+    assert!((hours(near) - 8.0).abs() < 0.001, "{}", hours(near));
+    assert!((hours(far) - 1.549).abs() < 0.02 && hours(far) > 1.5, "{}", hours(far));
+    let at = far.points[0];
+    assert!((at.x.abs() - 18.75).abs() < 0.5 && (at.y - 17.0).abs() < 0.1 && at.z == 1.5, "{at}");
+    assert_eq!([near.ruling.verdict, far.ruling.verdict], [Verdict::Fail, Verdict::Fail]);
+    let kept = judged(&boxed(), JAPAN, &options("2h"));
+    assert_eq!([kept.receivers[1].ruling.verdict, kept.verdict], [Verdict::Pass, Verdict::Fail]);
+    assert!(found.receivers.iter().all(|band| band.takers[0].component == 0));
+}
+
+/// A road in the north moves the border, and a higher neighbour raises the plane.
+#[test]
+fn roads_and_levels_ease_it() {
+    let worst = |side: PlotSide| {
+        let mut asked = boxed();
+        asked.plot.as_mut().expect("a plot").sides[2] = side;
+        let found = judged(&asked, JAPAN, &options("2h"));
+        (super::value_secs(&found.receivers[1]), found.receivers[1].points[0])
+    };
+    let (plain, _) = worst(PlotSide::default());
+    let (beyond_road, at) = worst(PlotSide { road_m: 6.0, neighbour_higher_m: 0.0 });
+    assert!(beyond_road < plain, "{beyond_road} {plain}");
+    assert!(at.y < 17.0 - 1e-6 || (at.y - 20.0).abs() < 0.1, "{at}");
+    let (raised, at) = worst(PlotSide { road_m: 0.0, neighbour_higher_m: 3.0 });
+    assert!(raised < plain, "{raised} {plain}");
+    assert!((at.z - 2.5).abs() < 1e-9 || at.y < 17.0 - 1e-6, "{at}");
+}

@@ -1,0 +1,55 @@
+//! What a rule needs and a site does not say, all of it in one error.
+
+use super::{area, nothing, site, tried, window};
+use glam::{DVec3, dvec3};
+use gnomon::rules::RuleError;
+use gnomon::site::{JudgedPlot, JudgedSite, PlotSide};
+use gnomon::study::StudyError;
+
+fn lacks(site: &JudgedSite, id: &str, options: &[(&str, &str)], words: &[&str]) {
+    let error = tried(site, id, options).expect_err(id);
+    assert!(matches!(error, StudyError::Rule(RuleError::Needs { .. })), "{error}");
+    let text = error.to_string();
+    for word in words {
+        assert!(text.contains(word), "{id}: {text:?} does not say {word:?}");
+    }
+}
+
+#[test]
+fn all_of_it_is_one_error() {
+    let mut asked = site(super::london(), vec![nothing()], None);
+    lacks(&asked, "uk-bre-209-sun-on-ground", &[], &["an area", "the state before"]);
+    lacks(&asked, "nl-the-hague", &[], &["a façade"]);
+    lacks(&asked, "jp-bsa-56-2", &[("plane", "4"), ("near", "3h"), ("far", "2h")], &["the plot"]);
+    lacks(&asked, "eu-en-17037-sunlight", &[("above", "DE")], &["a window"]);
+    asked.windows =
+        vec![window("one", dvec3(0.0, 0.0, 1.0), DVec3::NEG_Y), window("two", dvec3(5.0, 0.0, 1.0), DVec3::NEG_Y)];
+    asked.windows[1].floor = Some(0.0);
+    let all = ["the room of window \"one\", \"two\"", "the dwelling of", "height of the floor", "inner plane"];
+    lacks(&asked, "eu-en-17037-sunlight", &[("above", "DE")], &all);
+    asked.areas = vec![area("court", [0.0, 0.0], [9.0, 9.0])];
+    lacks(&asked, "au-vic-b21", &[], &["the state before"]);
+    let border = vec![super::corner(0.0, 0.0), super::corner(9.0, 0.0), super::corner(9.0, 9.0)];
+    asked.plot = Some(JudgedPlot { border, sides: vec![PlotSide::default(); 3], mean_ground: None });
+    lacks(&asked, "jp-bsa-56-2", &[("plane", "4"), ("near", "3h"), ("far", "2h")], &["mean level of the ground"]);
+}
+
+#[test]
+fn a_dwelling_without_one_of_its_uses_is_none_that_passes() {
+    let mut asked = site(super::london(), vec![nothing()], None);
+    let mut own = window("one", dvec3(0.0, 0.0, 1.0), DVec3::NEG_Y);
+    (own.dwelling, own.usage) = (Some("unit 1".into()), Some("living".into()));
+    asked.windows = vec![own];
+    lacks(&asked, "au-nsw-adg-4a1", &[("hours", "2h")], &["open-space", "unit 1"]);
+}
+
+#[test]
+fn a_listener_can_end_it() {
+    let mut asked = site(super::london(), vec![nothing()], Some(vec![nothing()]));
+    asked.areas = vec![area("court", [0.0, 0.0], [9.0, 9.0])];
+    let id = "uk-bre-209-sun-on-ground";
+    let rule = gnomon::rules::Rule::parse(id, gnomon::rules::built_in_text(id).expect("built in")).expect("a rule");
+    let resolved = rule.resolve(&[]).expect("options");
+    let ended = gnomon::study::judge::judge(&asked, &rule.source, &resolved, &mut |_| std::ops::ControlFlow::Break(()));
+    assert!(matches!(ended, Err(StudyError::Interrupted)));
+}

@@ -1,0 +1,109 @@
+//! `[[window]]`: panes of components, and four corners.
+
+use super::{fails, judged, notes};
+use glam::{DVec3, dvec3};
+use gnomon::site::JudgedWindow;
+
+const CORNERS: &str = "corners = [[-1, -5, 1], [1, -5, 1], [1, -5, 2.5], [-1, -5, 2.5]]";
+
+fn middle(window: &JudgedWindow) -> DVec3 {
+    window.corners.iter().sum::<DVec3>() / 4.0
+}
+
+#[test]
+fn panes_of_a_component_are_windows() {
+    let site = judged(
+        "[[window]]\ncomponent = \"glass\"\nroom = \"living room\"\ndwelling = \"flat 1\"\nusage = \"living\"\nfloor = 0.2\ninner = 0.25\nroom_area = 20",
+    );
+    let [box_pane, sheet] = site.windows.as_slice() else { panic!("{:?}", site.windows) };
+    assert_eq!([&box_pane.name, &sheet.name], ["glass 1", "glass 2"]);
+    assert_eq!((box_pane.room.as_deref(), box_pane.dwelling.as_deref()), (Some("living room"), Some("flat 1")));
+    assert_eq!((box_pane.usage.as_deref(), box_pane.floor, box_pane.inner_m), (Some("living"), Some(0.2), Some(0.25)));
+    assert_eq!((box_pane.room_m2, box_pane.reveal_is_said), (Some(20.0), false));
+    // both faces of the thin box, 2 cm apart, and both sides of the sheet in one plane
+    let faces = |window: &JudgedWindow| {
+        let other = window.other_side.expect("two sides");
+        (window.corners[0], other.iter().sum::<DVec3>() / 4.0 - middle(window))
+    };
+    assert!((faces(box_pane).1.length() - 0.02).abs() < 1e-5, "{box_pane:?}");
+    assert!(faces(sheet).1.length() < 1e-9, "{sheet:?}");
+    for window in [box_pane, sheet] {
+        let other = window.other_side.unwrap();
+        for corners in [&window.corners, &other] {
+            // the sill is level and below the head, and all four are seen counter-clockwise
+            assert!(corners[0].z == corners[1].z && corners[2].z == corners[3].z && corners[0].z < corners[2].z);
+            assert!(
+                (corners[0].distance(corners[1]) - 2.0).abs() < 1e-5
+                    && (corners[1].distance(corners[2]) - 1.5).abs() < 1e-5
+            );
+        }
+        let seen = |corners: &[DVec3; 4]| (corners[1] - corners[0]).cross(corners[3] - corners[0]).normalize();
+        assert!(seen(&window.corners).distance(window.outward) < 1e-9);
+        assert!(seen(&other).distance(-window.outward) < 1e-9);
+    }
+    let glass = site.now.mesh.components.iter().position(|component| component.name == "glass").unwrap();
+    assert_eq!(box_pane.component, Some(glass as u32));
+    let casting = site.now.casts.iter().filter(|casts| **casts).count();
+    assert!(!site.now.casts[glass] && casting == site.now.casts.len() - 1);
+    assert!(
+        notes(&site).contains("1 component of glass whose windows are judged lets the sun through"),
+        "{}",
+        notes(&site)
+    );
+    let named = judged("[[window]]\nname = \"south\"\ncomponent = [\"glass\", \"!house\"]\nreveal = 0.1");
+    assert_eq!([&named.windows[0].name, &named.windows[1].name], ["south 1", "south 2"]);
+    assert_eq!((named.windows[0].reveal_m, named.windows[0].reveal_is_said), (0.1, true));
+}
+
+#[test]
+fn corners_are_a_window() {
+    let site = judged(&format!(
+        "[[window]]\n{CORNERS}\n[[window]]\nname = \"bath\"\ncorners = [[3, 5, 2], [3, 5, 1], [2, 5, 1], [2, 5, 2]]"
+    ));
+    let [first, second] = site.windows.as_slice() else { panic!("{:?}", site.windows) };
+    assert_eq!((first.name.as_str(), first.outward, first.component), ("window 1", dvec3(0.0, -1.0, 0.0), None));
+    assert!(first.other_side.is_none() && first.corners[0] == dvec3(-1.0, -5.0, 1.0));
+    // begins at its sill, whichever corner was first; seen from the north
+    assert_eq!((second.name.as_str(), second.outward), ("bath", dvec3(0.0, 1.0, 0.0)));
+    assert_eq!(
+        second.corners,
+        [dvec3(3.0, 5.0, 1.0), dvec3(2.0, 5.0, 1.0), dvec3(2.0, 5.0, 2.0), dvec3(3.0, 5.0, 2.0)]
+    );
+    assert!(site.now.casts.iter().all(|casts| *casts));
+    for (corners, words) in [
+        ("[[0, 0, 0], [1, 0, 0], [1, 0, 1], [0, 0, nan]]", &["no point"][..]),
+        ("[[0, 0, 0], [1e9, 0, 0], [1, 0, 1], [0, 0, 1]]", &["50 km"]),
+        ("[[0, 0, 0], [0, 0, 0], [1, 0, 1], [0, 0, 1]]", &["corners 1 and 2", "one point"]),
+        ("[[0, 0, 0], [1, 0, 0], [0, 0, 1], [1, 0, 1]]", &["no rectangle", "order"]),
+        ("[[0, 0, 0], [1, 0, 0], [1, 0.5, 1], [0, 0, 1]]", &["no rectangle"]),
+        ("[[0, 0, 0], [1, 0, 0], [1.5, 0, 1], [0.5, 0, 1]]", &["no rectangle"]),
+        ("[[0, 0, 0], [1, 0, 0], [2, 0, 0], [3, 0, 0]]", &["no rectangle"]),
+    ] {
+        fails(&format!("[[window]]\ncorners = {corners}"), &[words, &["[[window]] corners"]].concat());
+    }
+}
+
+#[test]
+fn mistakes_in_windows_are_told() {
+    fails("[[window]]\nroom = \"a\"", &["component or corners in [[window]]", "component = "]);
+    fails(&format!("[[window]]\n{CORNERS}\ncomponent = \"glass\""), &["[[window]] corners", "`component`"]);
+    fails("[[window]]\ncomponent = \"glas\"", &["[[window]] component", "\"glas\"", "\"glass\""]);
+    fails("[[window]]\ncomponent = \"tower\"", &["[[window]] component", "no flat piece"]);
+    fails(
+        &"[[window]]\ncomponent = \"glass\"\n".repeat(2),
+        &["[[window]] number 2 component", "\"glass\"", "another [[window]]"],
+    );
+    fails(&format!("[[window]]\nname = \"a\"\n{CORNERS}\n").repeat(2), &["[[window]] number 2 name", "\"a\""]);
+    for key in ["reveal = -0.1", "inner = 11", "floor = nan", "room_area = 0"] {
+        let name = key.split(' ').next().unwrap();
+        fails(&format!("[[window]]\n{CORNERS}\n{key}"), &[&format!("[[window]] {name}"), "is not between"]);
+    }
+}
+
+/// What is no pane is left out with a note, and what is no rectangle is judged as the one around it.
+#[test]
+fn bodies_are_no_windows() {
+    let site = judged("[[window]]\ncomponent = [\"glass\", \"barn\"]");
+    assert_eq!(site.windows.len(), 2);
+    assert!(notes(&site).contains("1 piece of \"barn\" is not flat"), "{}", notes(&site));
+}
