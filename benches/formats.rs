@@ -1,9 +1,9 @@
-//! How long model files take to read, each at a size and at ten times that: `cargo bench --bench formats`. Prints a table in
-//! Markdown, and `-- FILE…` adds files of your own.
+//! How long it takes to read model files, each at one size and at ten times that size: `cargo bench --bench formats`.
+//! Prints a table in Markdown; `-- FILE…` adds files of your own.
 //!
-//! The files are written by the bench itself: a hilly sheet of triangles as OBJ and STL, buildings as CityJSON and as
-//! footprints, heights as an ASCII grid, walls and furniture as IFC; beside them stands the house of `sites/hillside`. Compare
-//! the columns, since absolute times drift with the machine.
+//! The bench writes the files itself: a hilly sheet of triangles as OBJ and STL, buildings as CityJSON and as
+//! footprints, heights as an ASCII grid, walls and furniture as IFC. The house of `sites/hillside` is added. Compare
+//! the columns, since absolute times vary with the machine's load.
 
 mod ifc_text;
 mod timing;

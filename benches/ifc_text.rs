@@ -1,4 +1,4 @@
-//! A synthetic IFC file: walls with an opening each, and furniture as triangles beside them.
+//! A synthetic IFC file: walls with one opening each, and furniture as triangles.
 
 use std::fmt::Write as _;
 

@@ -1,8 +1,9 @@
-//! Light on patches, side by side: `cargo bench --bench receivers`. Prints tables in Markdown.
+//! Light on patches by each technique: `cargo bench --bench receivers`. Prints tables in Markdown.
 //!
-//! Per site: milliseconds a sample by filled textures (processor and adapter), by edge flags, by rays, and by the choice
-//! between them. Then the paper's own measure; and how the time grows with the occluders, with and without culling.
-//! `docs/benchmarks/receivers.md` keeps a run. All numbers of a table are of one run, so ratios hold.
+//! For each site, milliseconds per sample by filled textures (processor and adapter), by edge flags, by rays, and by
+//! the technique that is chosen automatically. Then the measure of the paper, and how the time grows with the number of
+//! occluders, with and without culling. `docs/benchmarks/receivers.md` has the results of a run. All numbers of a table
+//! come from one run, so their ratios are comparable.
 
 mod timing;
 

@@ -1,5 +1,6 @@
-//! How soon a picture follows the hand: the real window on all three sites, drawn at every frame, while the day's slider
-//! or the eye is dragged; and the view's own picture by each technique. `cargo bench --bench window` prints two tables.
+//! How quickly the picture follows the mouse: the real window on all three sites, drawn at every frame while the day's
+//! slider or the eye is dragged; and the view's own picture by each technique. `cargo bench --bench window` prints two
+//! tables.
 
 mod screen;
 mod timing;

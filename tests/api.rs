@@ -1,4 +1,4 @@
-//! What other programs use: the three doors that the library's front page shows, and what they promise.
+//! What other programs use: the three entry points that the library's front page shows, and what they guarantee.
 
 #[path = "../examples/mask-of-one-sun.rs"]
 mod mask_of_one_sun;

@@ -1,4 +1,4 @@
-//! The rules of `docs/architecture.md`, as far as a machine can see them: who may know whom, who may print, who may
+//! Checks the rules of `docs/architecture.md` that a machine can check: which module may use which, which may print or
 //! read files, how types are named, and how long files and functions may be.
 
 mod rules;

@@ -1,4 +1,5 @@
-//! Times of change between instants: hours are those of a study that is stepped at the resolution, and of closed forms.
+//! Times of change between instants: the hours must equal those of a study with steps as short as the resolution, and
+//! those of closed forms.
 
 mod closed_forms;
 mod said;

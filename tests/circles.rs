@@ -1,9 +1,10 @@
-//! No circles among the files of a room: where one file uses another's items, that one uses none of its own, neither
-//! directly nor through others. Then each file can be read by itself, with those below it.
+//! Files of a module must not depend on each other in circles: if a file uses another's items, the other must not use
+//! any of its own, neither directly nor through further files. Then each file can be read alone, with those that it
+//! uses.
 //!
-//! A file uses another where it imports an item that is declared there, or writes a path to one. Paths are followed
-//! through re-exports to where an item is declared, so that a `mod.rs` which only declares and re-exports is used by
-//! nobody; and what it re-exports it does not use, unless it writes the name itself.
+//! A file uses another if it imports an item that is declared there, or writes a path to one. Paths are followed
+//! through re-exports to the declaration. So a `mod.rs` that only declares and re-exports is used by nobody, and does
+//! not use what it re-exports unless it writes the name itself.
 
 use crate::architecture::{files, without_comments};
 use std::collections::{BTreeMap, BTreeSet};

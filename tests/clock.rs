@@ -1,4 +1,4 @@
-//! Clocks against another implementation, and where their rules come from.
+//! Local time against another implementation, and where the rules of time zones come from.
 
 use chrono::{DateTime, MappedLocalTime, NaiveDateTime, TimeDelta, TimeZone, Utc};
 use gnomon::sun::{Place, Reading, SunError, SunTrack, TzVersion, Zone, ZoneRules, zone_names};

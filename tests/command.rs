@@ -1,4 +1,4 @@
-//! The command, driven as its users drive it: files, streams and exit statuses.
+//! The command as its users run it: files, streams and exit statuses.
 
 mod animate;
 mod check;

@@ -1,5 +1,5 @@
-//! How much work is done, in counts that do not drift, held against those in `docs/benchmarks/counts.md`: a technique that
-//! comes to look at twice as much is found out on a machine that is busy with something else.
+//! The amount of work in counts, compared with those in `docs/benchmarks/counts.md`. Counts do not depend on load, so a
+//! technique that begins to visit twice as much is noticed even on a busy machine.
 
 use crate::shared::drawing::gpu;
 use gnomon::choice::{MAP_SIZE, Receivers};

@@ -1,4 +1,4 @@
-//! Deliverables as a program takes them that uses the library: in memory as in a folder, and from where they were stopped.
+//! Results as a program that uses the library gets them: in memory the same as in a folder, and resumed after a stop.
 
 use crate::shared::program::site;
 use gnomon::choice::{Engine, Receivers};

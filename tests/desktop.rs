@@ -1,4 +1,4 @@
-//! The window, driven by the names that it gives its parts, as a person and as assistive technology would.
+//! The window, driven by the names of its parts, as a person or assistive technology would drive it.
 
 mod changing;
 mod comparing;

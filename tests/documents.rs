@@ -1,4 +1,4 @@
-//! The documents for people: links that lead somewhere, and a README that one reads.
+//! The documents for people: links that lead somewhere, and a README that can be read.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,5 @@
-//! Where models stand on Earth: by their coordinates, by their anchors, by what the user writes; and the place they propose.
+//! Where models stand on Earth: by their coordinates, by their anchors, by what the user writes; and the place they
+//! suggest.
 
 mod doubts;
 mod told;

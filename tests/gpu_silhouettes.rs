@@ -1,4 +1,4 @@
-//! Silhouettes found on the GPU against those found on the processor, edge for edge; and the masks that come of them.
+//! Silhouettes found on the GPU against those found on the processor, edge for edge; and the resulting masks.
 
 use crate::geometry::silhouettes::{naive, sums};
 use crate::geometry::{light, modelled, part, soup, sphere};

@@ -1,4 +1,4 @@
-//! The window's picture has the look of a drawing: whole pictures of the two are held against each other, pixel by pixel.
+//! The window's picture looks like a drawing: both are compared as whole pictures, pixel by pixel.
 
 use crate::shared::drawing::gpu;
 use gnomon::choice::{Engine, Method, Receivers, Settings};

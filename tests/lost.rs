@@ -1,4 +1,4 @@
-//! A graphics device that is lost in the midst of a study: all is done again, and comes to the same.
+//! A graphics device that is lost in the middle of a study: the work is repeated, and the result is the same.
 
 use gnomon::choice::{Engine, Method, Receivers};
 use gnomon::deliver::profile::{ProfileRequest, profile};

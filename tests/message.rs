@@ -1,4 +1,4 @@
-//! What errors and notes say of the fields of a request, in the words of each face.
+//! How errors and notes name the fields of a request in each interface.
 
 use crate::shared::program::done;
 use crate::site::{SITE, load, some};

@@ -1,4 +1,4 @@
-//! What every mistake in a site file or an option is told: one line, the file, the key and the way out.
+//! The message for every mistake in a site file or an option: one line with the file, the key and a way out.
 
 use crate::shared::program::fails;
 use crate::site::{SITE, folder, load, some};

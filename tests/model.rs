@@ -1,4 +1,4 @@
-//! Model files: what is read, under which names, and what is refused. The files are built here, byte by byte.
+//! Model files: what is read, names, and what is refused. The files are built here byte by byte.
 
 mod hostile;
 mod names;

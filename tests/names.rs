@@ -1,5 +1,5 @@
-//! Names of components and of files, as a site file means them; and what the sites come to whose models need more than
-//! their triangles to be read.
+//! Names of components and files in site files, and the results of sites whose models need more than their triangles to
+//! be read.
 
 use crate::model::poses::{morphing, skinned};
 use crate::model::{Model, push};

@@ -1,5 +1,4 @@
-//! `docs/command.md` and `docs/site-file.md` say what the definitions say that the command line and the site file are
-//! read by.
+//! `docs/command.md` and `docs/site-file.md` agree with the definitions of the command line and of the site file.
 
 #[path = "../tools/write-references/main.rs"]
 mod write_references;

@@ -1,4 +1,4 @@
-//! Every shader is valid, and its structs lie in memory as Rust's do. Needs no GPU.
+//! Every shader is valid, and its structs have the same memory layout as those in Rust. Needs no GPU.
 
 use gnomon::gpu::layout::{self, StructLayout};
 use gnomon::gpu::shaders;

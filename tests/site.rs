@@ -1,4 +1,4 @@
-//! Site files and options → the checked request: what is meant, and what every mistake is told.
+//! From site files and options to the checked request: what they mean, and the message for every mistake.
 
 use crate::shared::said;
 use glam::DVec3;

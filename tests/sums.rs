@@ -1,4 +1,4 @@
-//! Sums of masks are exact integers, on both machines, and shadow, sun and night fill the window.
+//! Sums of masks are exact integers, on both machines; shadow, sun and night add up to the window.
 
 use crate::shared::drawing::gpu;
 use crate::site::{SITE, load};

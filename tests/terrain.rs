@@ -1,4 +1,5 @@
-//! Terrain as the ground: shadows on it against closed forms, against the plane that it may be, and against rays.
+//! Terrain as the ground: shadows on it against closed forms, against the plane where the terrain is flat, and against
+//! rays.
 
 mod asked;
 mod drawn;

@@ -1,4 +1,4 @@
-//! `gnomon verify`: what it counts is right, and every row that decides is seen failing.
+//! `gnomon verify`: its counts are right, and every row that is held to the bound is seen to fail.
 
 use crate::shared::drawing::{plan, scene_of, to_sun};
 use crate::shared::program::{PLACE, command, done, fails, site, stderr};

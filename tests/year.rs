@@ -1,4 +1,5 @@
-//! Studies of several days: which instants, what is kept of them, and that a stopped one goes on as if it had not been.
+//! Studies of several days: which instants, what is stored of them, and that a stopped one continues as if it had not
+//! been stopped.
 
 use crate::shared::program::{PLACE, command, done, fails, files, gnomon, left, numberless, site, stderr, stopped};
 use chrono::{Datelike, NaiveDate, TimeDelta, Timelike};

@@ -1,4 +1,4 @@
-//! What `gnomon verify` says: JSON, and a table with a legend.
+//! The result of `gnomon verify`: JSON, and a table with a legend.
 
 use super::{ExportError, report};
 use crate::choice::{Engine, Finder, Method, MethodRow, Promise, Subject, TABLE, Truth};
@@ -62,24 +62,25 @@ struct RowReport<'a> {
 
 /// The JSON of `gnomon verify`: place, plan and instants as in `profile.json`, then
 ///
-/// - `instants_compared`: those with a sun;
-/// - `sun_samples`, `sun_samples_secs_per_instant`: the points of the sun's disc, and how long an instant took to them;
-/// - `clean`: every part that casts is closed and well wound; `edge_share_bound`: the part of the edge cells of an exact
-///   technique that may therefore differ (of other cells, one in 100,000);
-/// - `holds`: whether every technique that decides does;
-/// - `techniques`, each with what drew it and `against` (`centre`: ray casting to the sun's centre, `disc`: to the points
-///   of its disc, `every-face`: rays without the trees, at some cells), the `cells` compared, how many of them are
-///   `edge_cells`; how many of these and of the others differ by more than half the sun (`edge_differ`,
-///   `other_differ`), counted apart where they lie beside what is thinner than a cell (`thin_differ`) and where the
-///   hybrid's map missed something (`map_missed`); how far the furthest of those that differ lies from a shadow edge
-///   (`furthest_cells`); by how much the share of the sun, 0 to 1, and the hours of the profile are off
-///   (`mean_share_off`, `largest_hours_off`, `mean_hours_off`); `secs_per_instant`; and `holds`, null where the technique
-///   decides nothing;
-/// - `draw_no_plan`: the techniques that are left out, as there is no plan of theirs to compare;
-/// - `notes` as in `profile.json`: those given.
+/// - `instants_compared`: the number of instants at which the sun is up;
+/// - `sun_samples`, `sun_samples_secs_per_instant`: the number of points on the sun's disc, and how long ray casting to
+///   them took per instant;
+/// - `clean`: whether every casting part is closed and well wound; `edge_share_bound`: the share of edge cells of an
+///   exact technique that may differ because of that (of other cells, one in 100,000);
+/// - `holds`: whether every technique that is held to the bound meets it;
+/// - `techniques`: for each technique the settings that drew it; `against`, its reference (`centre`: ray casting to the
+///   sun's centre, `disc`: ray casting to the points of its disc, `every-face`: rays without the trees, at some cells);
+///   the number of `cells` compared and of `edge_cells` among them; how many of these and of the others differ by more
+///   than half the sun (`edge_differ`, `other_differ`), apart from cells beside things thinner than a cell
+///   (`thin_differ`) and cells where the hybrid's map missed something (`map_missed`); how far from a shadow edge the
+///   farthest differing cell lies (`furthest_cells`); the errors of the share of the sun, 0 to 1, and of the profile's
+///   hours (`mean_share_off`, `largest_hours_off`, `mean_hours_off`); `secs_per_instant`; and `holds`, null if the
+///   technique is not held to the bound;
+/// - `draw_no_plan`: the techniques that cannot draw plans and are therefore not compared;
+/// - `notes`: the given notes, as in `profile.json`.
 ///
 /// # Errors
-/// [`ExportError::Encode`] where the encoder refuses.
+/// [`ExportError::Encode`] if the encoder fails.
 pub fn json(verification: &Verification, site: &Site, notes: &[Message]) -> Result<String, ExportError> {
     let Site { place, track, receivers, ground, .. } = site;
     let Verification { grid, instants, clean, edge_share, sun_samples, disc_secs, rows } = verification;
@@ -107,7 +108,7 @@ pub fn json(verification: &Verification, site: &Site, notes: &[Message]) -> Resu
     })
 }
 
-/// The words of the techniques that draw no plan, and so are not compared.
+/// The names of techniques that cannot draw plans and are therefore not compared.
 fn draw_no_plan() -> Vec<&'static str> {
     const PLANS: [Subject; 3] = [Subject::Top, Subject::Ground, Subject::Terrain];
     let draws = |row: &MethodRow| PLANS.iter().any(|plan| row.draws(Engine::Auto, *plan));
@@ -141,7 +142,7 @@ fn row_report(row: &Row, holds: Option<bool>) -> RowReport<'_> {
     }
 }
 
-/// The finder that was used, and the techniques that used another one.
+/// The silhouette finder that was used, and which techniques used another one.
 fn silhouettes(rows: &[Row]) -> String {
     let mut found = rows.iter().filter_map(|row| Some((row.drawn.finder?, row.drawn.technique)));
     let Some((first, _)) = found.next() else { return "none".to_owned() };
@@ -150,7 +151,7 @@ fn silhouettes(rows: &[Row]) -> String {
     format!("{first}{}", others.concat())
 }
 
-/// The size of maps, the filter of the shadow map, and the width of smoothies if it was set by hand.
+/// The size of shadow maps, the filter of the shadow map, and the width of smoothies if it was set by hand.
 fn maps(rows: &[Row]) -> Option<String> {
     let size = rows.iter().find_map(|row| row.drawn.settings.map_size)?;
     let filtered = |row: &Row| {
@@ -178,7 +179,7 @@ pub fn table(verification: &Verification, site: &Site) -> String {
     table
 }
 
-/// Where, when and with what, and an empty line.
+/// Writes place, time and machine, and an empty line.
 fn head(table: &mut String, verification: &Verification, site: &Site) {
     let Site { place, track, receivers, ground, .. } = site;
     let Verification { grid, instants, .. } = verification;
@@ -294,7 +295,7 @@ fn legend(table: &mut String, verification: &Verification, words: &dyn Words) {
     );
 }
 
-/// The bound that has to hold, and the reason for it.
+/// The bound that must be met, and the reason for it.
 fn bound(verification: &Verification, words: &dyn Words) -> String {
     let bound = format!(
         "holds: of edge cells at most {}% differ, and of others one in {OTHERS}; of ray casting's none",
@@ -307,12 +308,12 @@ fn bound(verification: &Verification, words: &dyn Words) -> String {
     message![bound, "\n         (as not every part that casts is clean", more, ")"].in_words(words)
 }
 
-/// Whether a row is of a technique that draws on both machines, and follows the processor's row.
+/// Whether a row is that of the graphics card for a technique that also has a row for the processor.
 fn is_on_gpu_too(row: &Row) -> bool {
     row.drawn.engine == Engine::Gpu && !row.drawn.technique.row().on_cpu.is_empty()
 }
 
-/// The techniques that do not hold, in one line; `None` if all do.
+/// The techniques that do not meet the bound, in one line; `None` if all do.
 pub fn failure(verification: &Verification) -> Option<String> {
     let told = |row: &Row| {
         let most = match row.promise {

@@ -1,4 +1,4 @@
-//! A box and a wall without end, whose shadows' moments are known to the second.
+//! A box and an infinite wall, whose shadows come and go at times that are known to the second.
 
 use crate::shared::scenes::{cuboid, joined};
 use chrono::{NaiveDate, TimeDelta};

@@ -1,4 +1,4 @@
-//! `gnomon check`: several files, whole lists; and what other commands say of the same models.
+//! `gnomon check`: several files, complete lists, and what other commands say about the same models.
 
 use crate::shared::program::{PLACE, STUDY, done, fails, gnomon, site, stderr};
 use serde_json::Value;

@@ -1,4 +1,4 @@
-//! Which rules of clocks were taken, in all that is handed out; and what is said of years for which they are a guess.
+//! Every result says which time zone rules were used, and warns about years for which the rules are a guess.
 
 use crate::shared::program::{done, fails, gnomon, names, site, stderr};
 use gnomon::sun::ZoneRules;

@@ -1,4 +1,4 @@
-//! `gnomon profile --draw`: the lines as they are written, against closed forms and against the raster.
+//! `gnomon profile --draw`: the drawn lines against closed forms and against the raster.
 
 use crate::shared::program::{done, fails, names, site};
 use serde_json::Value;

@@ -1,4 +1,4 @@
-//! The ground's height: who says it, what it is where nobody does, and where it stands.
+//! The height of the ground: where it comes from, what the default is, and where it is reported.
 
 use crate::model::{Model, U16};
 use crate::shared::program::{command, done, fails, stderr};

@@ -1,4 +1,4 @@
-//! Letters that Noto Sans lacks: the system's faces draw them, and what none has is told.
+//! Letters that Noto Sans lacks: the system's fonts draw them, and a note lists those that no font has.
 
 use crate::shared::program::{command, site, stderr};
 use image::RgbImage;

@@ -1,4 +1,4 @@
-//! Numbers that a file does not hold: strays far off, and corners that are rounded before they are read.
+//! Models with bad coordinates: stray points far away, and corners that were rounded before they were read.
 
 use crate::model::{I16, Model, U32};
 use crate::shared::program::{done, gnomon, stderr};

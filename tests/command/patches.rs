@@ -1,4 +1,4 @@
-//! `gnomon profile --receivers surfaces`: files, numbers and mistakes.
+//! `gnomon profile --receivers surfaces`: files, numbers and errors.
 
 use crate::shared::program::{done, fails, gnomon, names, site, stderr};
 use glam::DVec3;

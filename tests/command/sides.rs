@@ -1,4 +1,4 @@
-//! `--view south` and `[camera] side`: a side along parallel rays, by the command.
+//! `--view south` and `[camera] side`: the command draws a side along parallel rays.
 
 use crate::shared::program::{done, fails, pixels, site};
 use serde_json::{Value, json};

@@ -1,4 +1,4 @@
-//! Models in other units, and such as lie on their side: what they look like is told, with the key that mends it.
+//! Models in other units, or lying on their side: a note says what they look like and which key corrects it.
 
 use crate::model::{Model, U32};
 use crate::shared::program::{PLACE, STUDY, done, fails, gnomon, stderr};

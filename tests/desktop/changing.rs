@@ -1,4 +1,4 @@
-//! What is changed while something else goes on, and after it.
+//! Changes while something else is running, and after it.
 
 use super::exporting::{answer, command, menu};
 use super::*;

@@ -1,4 +1,4 @@
-//! The hours, and what is exported: the same as by the command.
+//! The hours and the exported files are the same as those of the command.
 
 use super::*;
 use std::process::Command;
@@ -285,7 +285,7 @@ fn nothing_is_exported_over_a_model() {
     for entry in ["Export the hours…", "Export the animation…"] {
         menu(&mut harness, entry);
         answer(&mut harness, &out, "Write");
-        harness.get_by_label_contains("another study works there");
+        harness.get_by_label_contains("another study is working there");
         harness.get_by_label_contains("somebody's study");
     }
     assert_eq!(out.read_dir().unwrap().count(), 1, "the lock alone");

@@ -1,4 +1,4 @@
-//! Nothing is cut off, at any scale of the interface; the panel keeps the width that a person gave it.
+//! Nothing is cut off at any scale of the interface, and the panel keeps the width that the user gave it.
 
 use super::exporting::answer;
 use super::*;

@@ -1,4 +1,4 @@
-//! What is hidden is not in the picture, and counts all the same.
+//! Hidden parts are not drawn, but they still cast shadows.
 
 use super::*;
 use gnomon::shadow::ray_cast::RayCast;

@@ -1,4 +1,4 @@
-//! What is kept from one start to the next.
+//! What the app remembers from one start to the next.
 
 use super::*;
 use crate::desktop::exporting::menu;

@@ -1,4 +1,4 @@
-//! A real window that is killed, before a real X server: the next one offers what was not saved.
+//! A real window that is killed, on a real X server: the next one offers the unsaved settings.
 
 use super::xvfb::{Running, keep_screen, run, server};
 use super::{sample, small_site};

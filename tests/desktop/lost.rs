@@ -1,4 +1,4 @@
-//! A graphics device that is lost under the window: the picture comes again, and what was under way goes on.
+//! The window's graphics device is lost: the picture comes back, and running work continues.
 
 use super::resizing::{SAYS, Watched, on_any_thread, shows_window_of, stencil_site};
 use super::xvfb::{screen, server, shades};

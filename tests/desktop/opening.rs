@@ -1,4 +1,4 @@
-//! Opening: what can be opened, what is asked, what is told.
+//! Opening files: what can be opened, and the questions and messages on the way.
 
 use super::*;
 use gnomon::site::{Overrides, Site};

@@ -1,4 +1,4 @@
-//! The day and the year as they play.
+//! Playing the day and the year.
 
 use super::*;
 use chrono::{NaiveDate, NaiveTime};

@@ -1,4 +1,4 @@
-//! Files that change on the disk while they are open.
+//! Files that change on disk while they are open.
 
 use super::comparing::{compared, not_told};
 use super::exporting::{answer, command, menu};

@@ -1,4 +1,4 @@
-//! A real window under a hand that resizes it, while pictures and hours are drawn on a graphics device.
+//! A real window that a user resizes while pictures and hours are drawn on a graphics device.
 
 use super::xvfb::{Running, run, screen, server, shades};
 use super::*;

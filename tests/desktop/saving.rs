@@ -1,4 +1,4 @@
-//! What is saved, what is asked about what is not, and what is offered of windows that have ended.
+//! Saving, the question about unsaved settings, and the settings offered from windows that have ended.
 
 use super::exporting::{answer, menu, name};
 use super::*;

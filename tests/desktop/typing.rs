@@ -1,4 +1,4 @@
-//! Numbers, degrees, dates and times as people type them, and what is refused beside its field.
+//! Numbers, degrees, dates and times as people type them, and errors beside their fields.
 
 use super::*;
 

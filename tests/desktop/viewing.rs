@@ -1,4 +1,4 @@
-//! Where the eye stands and what lies over the picture; and what can be shown instead of sun and shadow.
+//! The position of the eye, overlays over the picture, and what can be shown instead of sun and shadow.
 
 use super::exporting::{answer, menu};
 use super::*;

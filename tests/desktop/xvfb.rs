@@ -1,4 +1,4 @@
-//! The real window, before a real X server, with a pointer and keys. `tests/run.sh` installs what that needs.
+//! The real window on a real X server, with pointer and keys. `tests/run.sh` installs what that needs.
 
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};

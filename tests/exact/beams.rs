@@ -1,4 +1,5 @@
-//! Beams on the sample sites: cell by cell they answer as the plain caster does, with whatever instructions there are.
+//! Beams on the sample sites: every cell equals that of the plain caster, with each instruction set that the machine
+//! has.
 
 use glam::DVec3;
 use gnomon::shadow::JUDGED_ABOVE_M;

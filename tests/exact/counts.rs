@@ -1,4 +1,4 @@
-//! The count is never wrong: not where it passes 128 or 256, nor where half of it does.
+//! The count is never wrong, not even where it exceeds 128 or 256, or where half of it does.
 
 use super::masks;
 use crate::shared::drawing::{plan, scene_of, to_sun};

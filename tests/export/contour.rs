@@ -1,4 +1,4 @@
-//! Contours against the cells that they part, one by one.
+//! Contours against the cells that they separate, one by one.
 
 use gnomon::choice::{Engine, Receivers};
 use gnomon::contour::{Contour, ScalarField, contours};

@@ -1,4 +1,4 @@
-//! One study works in a folder at a time; and what a dead one leaves there is in nobody's way.
+//! Only one study at a time works in a folder, and what a dead one left there is not in the way.
 
 use super::bytes;
 use crate::shared::program::{command, done, fails, files, gnomon, numberless, site, stderr};
@@ -44,7 +44,8 @@ fn a_folder_in_which_a_study_works_is_locked() {
         ("animate . --engine cpu --size 20".to_owned(), "out"),
         ("compare . open.glb --engine cpu --size 20".to_owned(), "out"),
     ] {
-        let words = [named, "another study works there", "since 20", &process, "gnomon profile . --technique ray-cast"];
+        let words =
+            [named, "another study is working there", "since 20", &process, "gnomon profile . --technique ray-cast"];
         fails(path, &asked, 1, &words);
         fails(path, &asked, 1, &["wait until it is done, or choose another folder"]);
     }

@@ -1,4 +1,4 @@
-//! What a stopped study keeps is its own: checked when it is taken over, and not another's to remove.
+//! The files of a stopped study are verified when they are resumed, and other studies do not remove them.
 
 use super::bytes;
 use crate::shared::program::{command, done, files, gnomon, left, numberless, site, stderr, stopped};

@@ -1,4 +1,4 @@
-//! What is read in a process of its own: it gives the same model, and whatever it does is one clear error.
+//! Reading in a separate process: it gives the same model, and whatever goes wrong there becomes one clear error.
 
 use crate::shared::program::site;
 use gnomon::formats::{self, ModelReader, ReadOptions, SceneName};

@@ -1,5 +1,5 @@
-//! One building, which each format's test writes in its own units and axes: an L of 10 × 20 × 30 m off the centre, so that no
-//! mirrored or turned reading of it is the same. A format's reading is held against the faces that were written.
+//! One building, which the test of each format writes in its own units and axes: an L of 10 × 20 × 30 m off the centre,
+//! so that any mirrored or turned reading differs. The faces that are read are compared with those that were written.
 
 use glam::DVec3;
 use gnomon::formats::{self, LeftOut, Model, ReadOptions, Up};

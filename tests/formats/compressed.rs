@@ -1,4 +1,4 @@
-//! glTF whose geometry is compressed. The bytes of meshopt are written here after its specification; those of Draco are the
+//! glTF with compressed geometry. The meshopt data is written here after the specification; the Draco data is the
 //! triangle of its own encoder's simplest method.
 
 use super::building::*;

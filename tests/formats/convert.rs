@@ -1,4 +1,4 @@
-//! `gnomon convert`: what was read is what is written.
+//! `gnomon convert`: the written model equals the one that was read.
 
 use super::ifc::house::house;
 use crate::model::Model as Written;

@@ -1,4 +1,4 @@
-//! Files of programs that are known and not read, and the rules that all formats keep.
+//! Files of known programs that cannot be read, and the rules that all formats follow.
 
 use super::building::*;
 use gnomon::formats::FORMATS;

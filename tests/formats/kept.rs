@@ -1,4 +1,5 @@
-//! What was read is kept: the same model comes back, of the very file and request, and of nothing that is damaged.
+//! The cache of models: the same model comes back for exactly the same file and request, and damaged entries are not
+//! used.
 
 use crate::shared::program::{names, site};
 use glam::DVec3;

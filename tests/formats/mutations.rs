@@ -1,6 +1,6 @@
-//! A thousand mutations of a small file of each format: no reader panics, hangs or takes all memory.
+//! A thousand mutations of a small file of each format: no reader panics, hangs or uses up all memory.
 //!
-//! A format's own test calls [`survives`] with the smallest file that has all that its reader knows.
+//! The test of a format calls [`survives`] with the smallest file that has everything its reader knows.
 
 use super::apart::apart;
 use crate::model::Model;

@@ -1,4 +1,4 @@
-//! One house, which each format has in its own units, axes and coordinates: its masks are one, cell for cell.
+//! One house, which each format has in its own units, axes and coordinates: the masks of all are equal, cell for cell.
 
 use super::building::indexed;
 use glam::{DVec3, dvec3};

@@ -1,4 +1,4 @@
-//! Terrain: rasters are thinned within what is asked, and every form of it lies where its file says.
+//! Terrain: rasters are simplified within the requested error, and each format is placed where its file says.
 
 use glam::{DVec2, DVec3};
 use gnomon::formats::{self, Coordinates, Model, PartKind, ReadOptions};

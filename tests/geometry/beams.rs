@@ -1,5 +1,5 @@
-//! Rays side by side and in beams answer as the plain caster does, and as every face asked one by one, to the bit, with
-//! whatever instructions the machine has.
+//! Rays in packets and in beams give the same results as the plain caster and as testing every face, to the bit, with
+//! each instruction set that the machine has.
 
 use super::{part, soup, sphere};
 use glam::{DVec3, dvec3};

@@ -1,4 +1,4 @@
-//! The ray caster: no ray slips through a shared edge, and the nearest face is the nearest.
+//! The ray caster: no ray slips through a shared edge, and the nearest face is found.
 
 use super::{part, soup, sphere};
 use crate::shared::scenes::stack;

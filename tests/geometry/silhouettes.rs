@@ -1,4 +1,4 @@
-//! Silhouettes against the sum of directions written plainly, and volumes that close.
+//! Silhouettes against a simple sum of directions, and volumes that close.
 
 use super::{light, modelled, soup};
 use crate::shared::scenes::cuboid;

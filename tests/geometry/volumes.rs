@@ -1,4 +1,4 @@
-//! The volume counts at every point the faces between it and the light, and no count is above its bound.
+//! At every point the volume counts the faces between it and the light, and no count exceeds its bound.
 
 use super::{light, modelled, soup, sphere};
 use crate::shared::scenes::{cuboid, stack};

@@ -1,4 +1,4 @@
-//! Corners that lie on each other become one vertex, within a part and never across.
+//! Coincident corners become one vertex within a part, but never across parts.
 
 use super::{part, sphere, unjoined};
 use crate::shared::scenes::cuboid;

@@ -1,4 +1,4 @@
-//! What nobody meant, or nobody uses, is told.
+//! Messages about georeferences that are probably mistakes, or that are not used.
 
 use super::{
     LONG_LAT, PLACE, STUDY, UTM, anchored, corners, drawing, folder, load, map_anchor, on_map, one, sheet, site_anchor,

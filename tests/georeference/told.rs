@@ -1,4 +1,4 @@
-//! What is said of where models stand: by whom, in which unit, and what is taken of it.
+//! What is reported about the position of models: its source, its unit, and which part of it is used.
 
 use super::*;
 use gnomon::site::ModelReference;

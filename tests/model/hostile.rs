@@ -1,4 +1,4 @@
-//! Files that were made to hurt: no panic, no hang, no memory that the file does not pay for.
+//! Malicious files: no panic, no hang, and no more memory than the size of the file justifies.
 
 use super::*;
 use proptest::prelude::*;

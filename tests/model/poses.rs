@@ -1,4 +1,4 @@
-//! Morph targets and skins where no animation moves them, as glTF 2.0 has it (3.7.2.2 and 3.7.3).
+//! Morph targets and skins without animation, as in glTF 2.0, sections 3.7.2.2 and 3.7.3.
 
 use super::*;
 

@@ -1,4 +1,4 @@
-//! What is there: hidden nodes, scenes, materials that light passes; and what is told of them.
+//! Visibility: hidden nodes, scenes, materials that let light pass, and the notes about them.
 
 use super::*;
 use crate::shared::said;

@@ -1,4 +1,4 @@
-//! The search against its slow twin, a ray at each second: the same intervals, and the same bounds.
+//! The search against a slow reference with a ray at each second: the same intervals with the same bounds.
 
 use super::{at, day, found, place, probing};
 use crate::shared::scenes::{cuboid, joined, sheet, small};

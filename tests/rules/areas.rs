@@ -1,4 +1,4 @@
-//! Parts of areas, on either side of their limits and of what is known of them.
+//! Shares of areas, on either side of their limits, and with parts that are unknown.
 
 use super::{calendar, rule};
 use gnomon::rules::{

@@ -1,4 +1,4 @@
-//! When the sun counts for a receiver before which nothing stands, against spherical trigonometry.
+//! When the sun counts for a receiver with a free horizon, against spherical trigonometry.
 
 use super::{hours, place, rule};
 use gnomon::glam::DVec3;

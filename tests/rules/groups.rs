@@ -1,4 +1,4 @@
-//! Dwellings by their rooms, and houses by their dwellings.
+//! Judging dwellings by their rooms, and houses by their dwellings.
 
 use super::rule;
 use gnomon::rules::{DwellingSun, Quantity, ResolvedRule, RoomRuling, Rule, Verdict, built_in_text};

@@ -1,4 +1,4 @@
-//! How rules are read, and what is refused.
+//! Reading rules, and what is refused.
 
 use gnomon::rules::{
     BUILT_IN, Confidence, DayName, Demand, OptionValue, Rule, RuleError, built_in_rules, duration_text,

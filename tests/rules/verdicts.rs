@@ -1,4 +1,4 @@
-//! How days and criteria become one verdict.
+//! How days and criteria are combined to one verdict.
 
 use super::{calendar, hours, lit, lit_in, minutes, rule, spells};
 use gnomon::rules::{DayLight, Excuse, Quantity, ResolvedRule, RuleDay, Ruling, Verdict};

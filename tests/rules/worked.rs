@@ -1,4 +1,4 @@
-//! Rules on shadows whose length has a closed form, with the sun of SPA.
+//! Rules about shadows whose length has a closed form, with the sun of SPA.
 
 use super::{hours, place, rule};
 use chrono::DateTime;

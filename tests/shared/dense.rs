@@ -1,5 +1,5 @@
-//! Scenes for the techniques: two whose thin casters throw their volumes over each other a hundredfold, and a smooth
-//! body with hardly any silhouette.
+//! Scenes for the techniques: two with thin casters, where a hundred volumes overlap, and a smooth body with a very
+//! short silhouette.
 
 use glam::{DVec2, DVec3, dvec3};
 use gnomon::mesh::Part;

@@ -1,4 +1,4 @@
-//! What a test draws with: the adapter, small plans, suns.
+//! What tests need for drawing: the adapter, small plans, suns.
 
 pub(crate) use super::dense::to_sun;
 use super::scenes::{cuboid, sheet};

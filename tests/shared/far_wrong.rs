@@ -1,5 +1,5 @@
-//! Cells that a shadow map gets wrong far from any shadow's edge: acne, and light between a shadow and its caster.
-//! Shared by the tests and the benchmark of the bias.
+//! Cells that a shadow map gets wrong far from any shadow edge: acne, and light between a shadow and its caster. Shared
+//! by the tests and the benchmark of the bias.
 
 use glam::DVec3;
 use gnomon::choice::Filter;

@@ -1,4 +1,4 @@
-//! The program as its users drive it, folders for it, and what it leaves there.
+//! Runs the program as its users do, in folders of its own, and reads what it leaves there.
 
 use crate::model::{F32, Model, U16};
 use serde_json::{Value, json};

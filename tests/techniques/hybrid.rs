@@ -1,4 +1,4 @@
-//! The hybrid: the stencil's own mask, but for what the map missed; and the count behind its mask.
+//! The hybrid: the mask equals that of the stencil, except for what the map missed; and the count behind its mask.
 
 use super::{draw, site};
 use crate::shared::drawing::{crossing, day, gpu, plan, scene_of, to_sun};

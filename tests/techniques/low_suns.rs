@@ -1,5 +1,5 @@
-//! Low suns in a town: shadows that are hundreds of kilometres long fall as those of noon do, and what an instant costs
-//! depends on what can reach the plan, and not on the town.
+//! Low suns in a town: shadows that are hundreds of kilometres long fall as correctly as those at noon, and the cost of
+//! an instant depends only on casters that can reach the plan.
 
 use super::plain_scan::scanned;
 use crate::shared::scenes::{cuboid, joined};

@@ -1,4 +1,4 @@
-//! The slow plain twin of projected shadows: every face by itself is cut, projected and scan-converted.
+//! A slow, simple reference for projected shadows: each face is cut, projected and scan-converted separately.
 
 use super::DVec3;
 use glam::DVec2;

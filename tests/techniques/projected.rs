@@ -1,4 +1,5 @@
-//! Projected shadows: ray casting's own mask on the ground, cell for cell, but within a thousandth of a cell of an edge.
+//! Projected shadows: the mask of ray casting on the ground, cell for cell, except within a thousandth of a cell of an
+//! edge.
 
 use super::plain_scan::scanned;
 use super::{draw, site};

@@ -1,4 +1,4 @@
-//! Shadow maps: the levels of each filter, the bias, and casters outside of the view.
+//! Shadow maps: the levels of each filter, the bias, and casters outside the view.
 
 use super::{draw, site};
 use crate::shared::drawing::{gpu, plan, scene_of, to_sun};

@@ -1,5 +1,5 @@
-//! Smoothies: the penumbra's width against the closed form, corners without seams, hard contact, and no light that the map
-//! alone would not give.
+//! Smoothies: the penumbra's width against the closed form, corners without seams, hard contact, and no more light than
+//! the map alone gives.
 
 use super::{draw, site};
 use crate::shared::drawing::{gpu, scene_of, to_sun};

@@ -1,4 +1,4 @@
-//! Techniques with a map draw one for each tile, finer than one for all: how far that is from the whole.
+//! Techniques with a map draw one per tile, finer than one for the whole plan: how much the results differ.
 
 use super::{draw, site};
 use glam::DVec3;

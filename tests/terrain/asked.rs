@@ -1,4 +1,4 @@
-//! What is terrain, as files and keys say it; how buildings stand on it; probes above and below it.
+//! What counts as terrain according to files and keys, how buildings stand on it, and probes above and below it.
 
 use super::{mesh, terrain, track, valley, vienna};
 use crate::shared::said;

@@ -1,4 +1,4 @@
-//! Terrain in drawings of the plan: as ground, and with the same lines and areas as the plane that it may be.
+//! Terrain in drawings of the plan: drawn as ground, with the same lines and areas as the plane if it is flat.
 
 use super::{drawn, mesh, site, terrain};
 use crate::shared::scenes::cuboid;

@@ -1,4 +1,4 @@
-//! A comparison sheet: panels in rows and columns with captions, lettered as the drawings are, written as a small PNG.
+//! A comparison sheet: panels in rows and columns with captions, lettered like the drawings, written as a small PNG.
 
 use crate::picture::{Picture, Rgb};
 use anyhow::{Context as _, Result};

@@ -1,5 +1,5 @@
-//! Draws the pictures of `docs/desktop.md`: `cargo run --example draw-window`. The real window, driven by the names of its
-//! parts, without a screen.
+//! Draws the pictures of `docs/desktop.md`: `cargo run --example draw-window`. It drives the real window by the names
+//! of its parts, without a screen.
 
 use anyhow::{Result, anyhow, bail};
 use eframe::egui::{Event, Key, Modifiers, Role, Theme};

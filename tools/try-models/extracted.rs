@@ -1,4 +1,4 @@
-//! What the adapter's extraction wrote, read as silhouettes. The tests and `try-models` share it.
+//! Reads the output of the adapter's extraction as silhouettes. Shared by the tests and `try-models`.
 
 use glam::DVec4;
 use gnomon::mesh::Mesh;

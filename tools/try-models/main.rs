@@ -1,10 +1,10 @@
-//! Tries every glTF model below some folders: `cargo run --example try-models -- FOLDER...`
+//! Tries every glTF model in some folders: `cargo run --example try-models -- FOLDER...`
 //!
-//! A row a model: its triangles and casting edges, whether every finder gives the silhouettes of the plain rule, and how
-//! the stencil's plan differs from ray casting over a day that begins and ends with a low sun. The exit status is 1 when
-//! something does not hold. A model that cannot be read is told and counted, and is no failure.
+//! Prints a row per model: its triangles and casting edges, whether every finder gives the silhouettes of the simple
+//! rule, and how the stencil's plan differs from ray casting over a day that begins and ends with a low sun. The exit
+//! status is 1 if a check fails. A model that cannot be read is reported and counted, but is not a failure.
 //!
-//! The tests include this file to see that its comparisons can fail.
+//! The tests include this file to check that its comparisons can fail.
 
 use glam::{DVec3, DVec4, dvec4};
 use gnomon::choice::Receivers;

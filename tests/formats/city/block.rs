@@ -1,4 +1,4 @@
-//! The building: an L of 10 × 20 × 30 m, off the middle, so that no mirrored or turned reading looks like it.
+//! The building: an L of 10 × 20 × 30 m off the centre, so that any mirrored or turned reading differs.
 
 use glam::DVec3;
 use gnomon::formats::{Model, ReadOptions, read};

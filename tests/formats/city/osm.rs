@@ -1,4 +1,4 @@
-//! What OpenStreetMap's keys say of a footprint: how high it is, and what it is.
+//! What OpenStreetMap's keys say about a footprint: its height, and what it is.
 
 use super::block::{AT, left_out, model_of, names, written};
 use super::footprints::{collection, feature, square, volume};
