@@ -16,7 +16,7 @@ use timing::{median, timed};
 /// How often each file is read.
 const TIMES: usize = 5;
 
-/// A format's name, the ending of its files, and what writes one of so many things.
+/// A format's name, its extension, a function that writes a file with a given number of objects, and that number.
 type Writer = (&'static str, &'static str, fn(usize) -> Vec<u8>, usize);
 
 const WRITERS: [Writer; 6] = [
@@ -89,7 +89,7 @@ fn height(x: usize, y: usize) -> f64 {
     200.0 + 20.0 * (x as f64 / 37.0).sin() * (y as f64 / 51.0).cos()
 }
 
-/// Squares to a side of a sheet of about so many triangles.
+/// The number of squares along a side of a sheet with about this many triangles.
 fn side(triangles: usize) -> usize {
     (triangles as f64 / 2.0).sqrt().ceil() as usize
 }

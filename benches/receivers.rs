@@ -127,7 +127,7 @@ fn sites(gpu: &Arc<Gpu>) {
     println!();
 }
 
-/// A floor of one patch, and so many thin boxes over it.
+/// A floor of one patch, and a number of thin boxes over it.
 fn boxes_over_a_floor(count: u32, side: f64) -> Vec<Part> {
     let slab = |name: &str, low: DVec3, high: DVec3| {
         let corner =

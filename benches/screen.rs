@@ -14,7 +14,7 @@ pub(crate) struct Screen {
 }
 
 impl Screen {
-    /// A screen of so many pixels, on the window's own device.
+    /// A screen of this size in pixels, on the window's own device.
     pub(crate) fn new(width: u32, height: u32) -> Screen {
         let config = WgpuConfiguration { wgpu_setup: desktop::setup(), ..WgpuConfiguration::default() };
         let instance = pollster::block_on(config.wgpu_setup.new_instance());

@@ -127,7 +127,7 @@ struct Followed {
     processor_secs: f64,
 }
 
-/// Follows a hand for so long. A picture is known by what was asked for when it was wished.
+/// Follows the mouse for a given time. A picture is identified by the request for which it was drawn.
 fn follow(real: &mut Real, next: &mut impl FnMut() -> Event, time: Duration) -> Followed {
     let mut followed = Followed::default();
     let mut asked: VecDeque<((View, DVec3), Instant)> = VecDeque::new();
@@ -163,7 +163,7 @@ fn processor_secs() -> f64 {
     fields.get(10..12).map_or(f64::NAN, |times| times.iter().sum::<f64>() / 100.0)
 }
 
-/// Whether a picture, of whatever size, is of what was asked.
+/// Whether a picture, of any size, shows what was requested.
 fn shows((view, to_sun): &(View, DVec3), (asked, asked_sun): &(View, DVec3)) -> bool {
     let (View::Camera(camera), View::Camera(asked)) = (view, asked) else { return false };
     to_sun == asked_sun && camera.eye == asked.eye && camera.target == asked.target

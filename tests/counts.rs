@@ -84,7 +84,7 @@ fn recorded(record: &str) -> Vec<Row> {
     table.lines().filter(|line| line.starts_with('|')).filter_map(row).collect()
 }
 
-/// What is off, and what stands in one table alone.
+/// Counts that differ, and those that only one table has.
 fn off(recorded: &[Row], found: &[Row]) -> Vec<String> {
     let mut off = Vec::new();
     for (name, counts) in found {

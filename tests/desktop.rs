@@ -32,7 +32,7 @@ pub(crate) fn window(path: Option<&Path>) -> Harness<'static, App> {
     scaled(path, 1.0, egui::Theme::Light)
 }
 
-/// The same in another theme, with an interface so many times as large; always of 1280 × 720 pixels.
+/// The same in another theme, with a scale of the interface; always of 1280 × 720 pixels.
 pub(crate) fn scaled(path: Option<&Path>, scale: f32, theme: egui::Theme) -> Harness<'static, App> {
     let path = path.map(Path::to_owned);
     let mut harness = Harness::<App>::builder()

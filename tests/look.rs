@@ -190,7 +190,7 @@ impl Compared {
 }
 
 impl Pair {
-    /// Which planes are seen within so many pixels.
+    /// Which planes are seen within a distance in pixels.
     fn planes_near(&self, pixel: usize, reach: usize) -> BTreeSet<u32> {
         let (column, row) = (pixel % self.width, pixel / self.width);
         let rows = self.seen.len() / self.width;

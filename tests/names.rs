@@ -145,7 +145,7 @@ fn models_are_read_again_for_another_scene() {
     assert!(text.contains("scene = 1"), "{text}");
 }
 
-/// What light passes and casts all the same is told, as long as it casts.
+/// Transparent components that cast are reported as long as they cast.
 #[test]
 fn see_through_materials_that_cast_are_told() {
     let mut model = crate::model::poses::tower(30.0);
@@ -231,7 +231,7 @@ fn the_same_tower_has_the_same_shadow() {
     }
 }
 
-/// The note is told wherever an answer is: on stderr, in the report, by check on stdout.
+/// The note is printed with every result: on stderr, in the report, by check on stdout.
 #[test]
 fn what_is_left_out_is_told_with_every_answer() {
     let folder = crate::shared::program::site();

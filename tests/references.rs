@@ -50,7 +50,7 @@ fn with(key: &SiteKey, line: &str) -> String {
     if is_list { format!("[[{}]]\n{line}\n", key.table) } else { format!("[{}]\n{line}\n", key.table) }
 }
 
-/// Values that a key of this type takes, and some that it does not.
+/// Values that a key of this type accepts, and some that it does not.
 fn samples(value: ValueType) -> (Vec<String>, Vec<String>) {
     let (good, bad): (&[&str], &[&str]) = match value {
         ValueType::Text | ValueType::Word(_) => (&["\"x\""], &["1", "true", "[]"]),

@@ -338,7 +338,8 @@ fn notes_of_models_are_told() {
     assert!(load(SITE, &asked).unwrap().notes.is_empty());
 }
 
-/// What was read serves as long as the same files stand in the same places, whatever else is asked of them.
+/// Models that were read are reused as long as the same files are placed in the same way, whatever else the request
+/// changes.
 #[test]
 fn models_are_read_once_as_long_as_they_stay() {
     let folder = folder(SITE);

@@ -111,7 +111,7 @@ impl Scene {
         self.patches.texels[texels.clone()].iter().map(point).zip(sums[texels].iter().copied())
     }
 
-    /// The same judged so many texels aside.
+    /// The same, judged at an offset in texels.
     fn moved(&self, [right, down]: [f64; 2]) -> Scene {
         let mut patches = (*self.patches).clone();
         let cell = patches.cell;

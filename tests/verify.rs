@@ -297,7 +297,7 @@ fn what_cannot_be_verified_is_told() {
     }
 }
 
-/// A system whose only backend is one that it has not.
+/// A system whose only selected backend does not exist.
 #[cfg(unix)]
 #[test]
 fn without_an_adapter_there_is_no_verification() {

@@ -30,7 +30,7 @@ pub(crate) fn face(letter: char) -> Vec<u8> {
     face
 }
 
-/// The sheet of the site under that name, in a home with these faces, and what is told.
+/// The sheet of a site with this name, in a home with these fonts, and the messages.
 fn sheet(name: &str, faces: &[Vec<u8>]) -> (RgbImage, String) {
     let folder = site();
     let path = folder.path();

@@ -40,7 +40,7 @@ pub(crate) fn folder(model: &Model, keys: &str) -> TempDir {
     folder
 }
 
-/// A tower of 10 × 10 × 30 m on the ground, so many units a metre.
+/// A tower of 10 × 10 × 30 m on the ground, with this many units per metre.
 fn tower(units: f64) -> Model {
     block([-5.0 * units, 0.0, -5.0 * units], [5.0 * units, 30.0 * units, 5.0 * units])
 }

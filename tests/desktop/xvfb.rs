@@ -137,7 +137,7 @@ fn real_window_opens_scrubs_and_closes() {
     assert!(window.0.try_wait().unwrap().is_none(), "the window is still open");
 }
 
-/// Without a display the command says so, and does not fall.
+/// Without a display the command says so, and does not crash.
 #[test]
 fn no_display_is_told() {
     let output = Command::new(env!("CARGO_BIN_EXE_gnomon"))

@@ -58,7 +58,7 @@ fn a_folder_in_which_a_study_works_is_locked() {
     killed(first);
 }
 
-/// Neither its lock nor what it had half written is in the way of the next one, or stays behind it.
+/// Neither its lock nor its incomplete files hinder the next one, or remain after it.
 #[test]
 fn a_killed_study_bars_nobody() {
     let folder = site();
@@ -88,7 +88,7 @@ fn a_killed_study_bars_nobody() {
     assert!(ours == alone, "{:?}", ours.keys());
 }
 
-/// Where a link stands in the lock's place, what it leads to is not written to.
+/// If there is a link in place of the lock, its target is not written to.
 #[cfg(unix)]
 #[test]
 fn a_link_in_the_place_of_the_lock_is_not_followed() {
@@ -109,7 +109,7 @@ fn a_link_in_the_place_of_the_lock_is_not_followed() {
     assert!(!path.join("out/.gnomon.lock").exists());
 }
 
-/// Nobody finds the results of a study whose folder is gone, and it does not end as if all were well.
+/// A study whose folder is gone ends with an error, since nobody would find its results.
 #[cfg(unix)]
 #[test]
 fn a_folder_that_vanishes_is_told() {

@@ -27,7 +27,7 @@ pub(crate) fn faces() -> Vec<Vec<DVec3>> {
     [top, bottom].into_iter().chain((0..PLAN.len()).map(wall)).collect()
 }
 
-/// The same as a file has them: so many metres a unit, and with that axis up.
+/// The same in a file's unit and with its up axis.
 pub(crate) fn faces_in(unit_m: f64, up: Up) -> Vec<Vec<DVec3>> {
     let corner = |corner: DVec3| match up {
         Up::Z => corner / unit_m,

@@ -197,7 +197,7 @@ fn draco_is_unpacked() {
     refused(&|json| json["bufferViews"][0]["byteLength"] = json!(bytes.len() + 1), &["bytes 0–"]);
 }
 
-/// Where a stream says to which steps its positions were rounded, that is told.
+/// If a stream says how coarsely its positions were rounded, a note says so.
 #[test]
 fn the_rounding_of_draco_is_told() {
     let (mut bytes, mut json) = draco();

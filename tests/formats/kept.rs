@@ -12,7 +12,7 @@ use std::fs;
 use std::path::Path;
 use std::time::{Duration, SystemTime};
 
-/// A model of which every field says something.
+/// A model in which every field has a value.
 fn full() -> Model {
     let part = |name: &str, at: f64| Part {
         name: name.to_owned(),

@@ -11,7 +11,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 const MUTATIONS: u64 = 1000;
-/// Each so many is also read in a process of its own, whose memory is watched.
+/// One in this many is also read in a separate process, whose memory is watched.
 const WATCHED: u64 = 40;
 const MOST_TIME: Duration = Duration::from_secs(10);
 const MOST_MEMORY: u64 = 1 << 30;

@@ -88,7 +88,7 @@ fn a_part_is_a_group_and_a_material_and_glass_is_told() {
     assert!(named.contains(&"all mine.mtl".into()) && named.contains(&"leaf.png".into()), "{named:?}");
 }
 
-/// A library outside of the model's folder is not read, whatever it says.
+/// A material library outside the model's folder is not read.
 #[test]
 fn libraries_elsewhere_are_not_read() {
     let folder = tempfile::tempdir().unwrap();

@@ -80,7 +80,7 @@ fn agree(name: &str, mesh: &Mesh, lights: &[DVec4]) {
     }
 }
 
-/// Every vertex is left as often as it is reached.
+/// As many directed edges begin at each vertex as end there.
 fn balanced(edges: &[DirectedEdge]) -> bool {
     let mut balance: HashMap<u32, i32> = HashMap::new();
     for &[from, to] in edges {

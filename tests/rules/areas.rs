@@ -5,7 +5,7 @@ use gnomon::rules::{
     AreaLight, Excuse, PartMet, Quantity, ResolvedRule, Rule, Ruling, ShadowLoad, Verdict, built_in_text, total_secs,
 };
 
-/// The ruling on an area of which so much keeps each criterion, known to an error.
+/// The ruling on an area, of which a given share meets each criterion, within an error.
 fn part(rule: &ResolvedRule, area_m2: f64, now_m2: f64, before_m2: Option<f64>, error_m2: f64) -> Ruling {
     let days = calendar(rule);
     let met = vec![Some(PartMet { now_m2, before_m2, error_m2 }); rule.criteria.len()];

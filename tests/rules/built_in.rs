@@ -4,7 +4,7 @@ use super::{calendar, hours, lit, lit_in, minutes, rule, spells};
 use gnomon::rules::{BUILT_IN, DayLight, DwellingShare, RULE_KEYS, Rule, Verdict, built_in_rules};
 use std::path::Path;
 
-/// Options as they are said.
+/// Options as given on the command line.
 type Given = &'static [(&'static str, &'static str)];
 
 /// Rules of windows and façades that ask for so much time in all, and what must be said.

@@ -4,7 +4,7 @@ use gnomon::rules::{
     BUILT_IN, Confidence, DayName, Demand, OptionValue, Rule, RuleError, built_in_rules, duration_text,
 };
 
-/// A small rule, of which tests change a part.
+/// A small rule; tests change parts of it.
 const SMALL: &str = r#"
 [rule]
 id = "town"

@@ -3,7 +3,7 @@
 use super::{calendar, hours, lit, lit_in, minutes, rule, spells};
 use gnomon::rules::{DayLight, Excuse, Quantity, ResolvedRule, RuleDay, Ruling, Verdict};
 
-/// The ruling over days, each of which has one spell of sun of so many seconds.
+/// The ruling over days, each with one spell of sun of the given seconds.
 fn ruling_of(rule: &ResolvedRule, days: &[RuleDay], secs: impl Fn(usize) -> i64) -> Ruling {
     let lit: Vec<_> = days.iter().enumerate().map(|(at, day)| spells(day, &[secs(at)])).collect();
     let lights: Vec<_> = days
@@ -116,7 +116,7 @@ fn a_lawful_body_excuses_as_much_shadow() {
     assert_eq!(ruling(hours(4) + 1, Some(hours(4))).verdict, Verdict::Fail);
 }
 
-/// New shadow is told, and whether all sun goes for longer than ten minutes.
+/// New shadow is reported, and whether it takes all sun for longer than ten minutes.
 #[test]
 fn a_report_tells_and_does_not_judge() {
     let nyc = rule("us-nyc-ceqr-shadows", &[]);

@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 
 /// A scene with its camera and its sun; the ground lies at 0.
 pub(crate) struct Dense {
-    /// What stands there; everything casts and receives.
+    /// The mesh; everything casts and receives.
     pub(crate) parts: Vec<Part>,
     pub(crate) camera: Camera,
     pub(crate) to_sun: DVec3,

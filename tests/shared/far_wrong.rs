@@ -24,7 +24,7 @@ impl FarWrong {
         (self.lighter + self.darker) as f64 / self.cells as f64
     }
 
-    /// Adds a mask's, whose texels are so many cells large.
+    /// Adds those of a mask whose texels have this size in cells.
     pub(crate) fn add(&mut self, drawn: &Mask, truth: &Mask, texel_cells: f64) {
         let edges = Edges::of(truth);
         self.cells += truth.share.len();

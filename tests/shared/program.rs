@@ -63,7 +63,7 @@ pub(crate) fn stderr(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
-/// Expects a failure that is told in one line with these words.
+/// Expects a failure with a message of one line that contains these words.
 pub(crate) fn fails(folder: &Path, arguments: &str, status: i32, words: &[&str]) {
     let output = gnomon(folder, arguments);
     let told = stderr(&output);

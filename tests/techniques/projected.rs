@@ -245,7 +245,7 @@ fn what_does_not_receive_is_looked_through() {
     agree("half casts", &Scene { casters, ..scene }, view, &suns[..2]);
 }
 
-/// The adapter's mask of the ground held against ray casting's, sun by sun; how many cells differ at edges.
+/// Compares the adapter's mask of the ground with ray casting's, sun by sun; returns how many cells differ at edges.
 fn agree_on_gpu(gpu: &Arc<Gpu>, what: &str, scene: &Scene, view: View, suns: &[DVec3]) -> usize {
     let View::Plan(grid) = view else { panic!("a plan") };
     let mut technique = ProjectedOnGpu::new(Arc::clone(gpu), scene, grid).unwrap();

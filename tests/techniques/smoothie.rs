@@ -17,7 +17,7 @@ use gnomon::view::{Grid, Mask, View};
 
 const SIDE: u32 = 700;
 
-/// A square of the ground around a point, so many metres wide.
+/// A square of the ground around a point, with a width in metres.
 fn around(middle: DVec2, side_m: f64) -> View {
     let cell = side_m / f64::from(SIDE);
     View::Plan(Grid { west: middle.x - side_m / 2.0, north: middle.y + side_m / 2.0, cell, width: SIDE, height: SIDE })

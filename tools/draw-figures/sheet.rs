@@ -26,7 +26,7 @@ const LEADING: f64 = 1.3;
 /// What heads of rows take on the left.
 const ROW_HEAD: f64 = 110.0;
 
-/// A panel and what stands below it: the first line in ink, others in gray.
+/// A panel and the text below it: the first line in ink, others in gray.
 pub(crate) struct Panel {
     pub(crate) picture: Picture,
     pub(crate) caption: Vec<String>,

@@ -26,7 +26,7 @@ pub(crate) fn edges_of(mesh: &Mesh, indices: &[u32], light: DVec4, to_infinity: 
     indices.chunks(if to_infinity { 3 } else { 6 }).map(edge_of).collect()
 }
 
-/// The bits by which the cap's faces were turned.
+/// The bits that say which faces of the cap were turned.
 pub(crate) fn facing_of(mesh: &Mesh, cap: &[u32]) -> Vec<bool> {
     assert_eq!(cap.len(), mesh.faces.len() * 3);
     let facing = |(&[a, b, c], turned): (&[u32; 3], &[u32])| {

@@ -29,7 +29,7 @@ pub(crate) mod extracted;
 /// Makes a finder for a mesh.
 type Make = fn(&Mesh) -> Box<dyn SilhouetteFinder>;
 
-/// The finders that are held against the plain rule. A new finder is a line here.
+/// The finders that are compared with the simple rule. A new finder gets a line here.
 const FINDERS: &[(&str, Make)] = &[
     ("brute force", |mesh| ProcessorFinder::BruteForce.build(mesh)),
     ("hextree of the paper's depth", |mesh| ProcessorFinder::Hextree { depth: PAPER_DEPTH }.build(mesh)),
