@@ -70,7 +70,7 @@ fn path(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("sites").join(name)
 }
 
-/// The window, and the clock that it reads: a hand's pauses are what they are, and not what the harness counts for them.
+/// The window, and the clock that it reads, so that pauses of the hand have their real length, not that of the harness.
 struct Real {
     window: Harness<'static, App>,
     began: Instant,
@@ -115,7 +115,7 @@ impl Real {
     }
 }
 
-/// What came of a hand that moves without a pause.
+/// The measurements for a hand that moves without a pause.
 #[derive(Default)]
 struct Followed {
     /// Milliseconds of each frame.
@@ -123,7 +123,7 @@ struct Followed {
     /// From the beginning of the frame that took a movement in to the end of the first one that shows it, milliseconds.
     latencies: Vec<f64>,
     secs: f64,
-    /// What all threads took of the processor, seconds.
+    /// The processor time of all threads, seconds.
     processor_secs: f64,
 }
 
@@ -153,8 +153,8 @@ fn follow(real: &mut Real, next: &mut impl FnMut() -> Event, time: Duration) -> 
     followed
 }
 
-/// What this program has taken of the processor until now, seconds: other programs do not change it as they change how
-/// long things take. Not a number where the system does not say.
+/// The processor time of this program so far, seconds. Unlike elapsed time, it does not depend on other programs. NaN
+/// if the system does not report it.
 fn processor_secs() -> f64 {
     let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
     let fields: Vec<f64> =
@@ -204,7 +204,7 @@ fn line(name: &str, on: &str) {
     );
 }
 
-/// What 95 of 100 stay below.
+/// The 95th percentile.
 fn most(mut times: Vec<f64>) -> f64 {
     times.sort_by(f64::total_cmp);
     times.get(times.len() * 95 / 100).copied().unwrap_or(f64::NAN)

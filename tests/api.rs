@@ -41,7 +41,7 @@ fn track() -> SunTrack {
     SunTrack::window(&vienna(), &window, true).unwrap()
 }
 
-/// A box on whole metres, of which `f32` loses nothing.
+/// A box on whole metres, which `f32` represents exactly.
 fn tower() -> Part {
     cuboid("tower", dvec3(-6.0, -4.0, 0.0), dvec3(7.0, 5.0, 21.0))
 }

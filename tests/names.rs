@@ -73,7 +73,7 @@ fn names_match_however_they_are_composed() {
     }
 }
 
-/// macOS takes letters apart in the names of files, and what is written elsewhere does not.
+/// macOS decomposes letters in file names, but other sources do not.
 #[test]
 fn files_are_found_however_their_names_are_composed() {
     let (composed, apart) = ("Fa\u{e7}ade", "Fac\u{327}ade");
@@ -133,7 +133,7 @@ fn a_scene_is_named_in_the_site_file() {
     }
 }
 
-/// Another scene is another model: what was read serves no more.
+/// Another scene is another model: the one that was read is not reused.
 #[test]
 fn models_are_read_again_for_another_scene() {
     let folder = folder(SITE);

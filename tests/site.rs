@@ -278,7 +278,7 @@ fn the_default_camera_sees_the_models() {
     }
 }
 
-/// What is not changed stays as a person wrote it; what is changed reads as it was set.
+/// Unchanged parts stay as a person wrote them; changed ones read as they were set.
 #[test]
 fn rewritten_file_keeps_its_comments() {
     let text = "# the client's site\n\n[place] # surveyed\nlatitude=48.2 # of the gate\nlongitude = 16.37\nelevation = 35\n\n\
@@ -312,7 +312,7 @@ fn rewritten_file_keeps_its_comments() {
     assert_eq!(SiteFile::parse("site.toml", &written).unwrap(), after, "{written}");
 }
 
-/// What a reader has to say of a model comes to whoever asks the site, by the model's name; and to a study's listener.
+/// A reader's notes on a model are available from the site, with the model's name, and are sent to a study's listener.
 #[test]
 fn notes_of_models_are_told() {
     let noted = |path: &Path, options: &ReadOptions| {

@@ -33,7 +33,7 @@ fn track() -> SunTrack {
     SunTrack { resolution_secs: 0, ..SunTrack::window(&vienna(), &window, true).unwrap() }
 }
 
-/// A sheet over a square of such a half side, as high as is said at its corners.
+/// A sheet over a square with half the side and the heights of the corners given.
 fn terrain(half: f64, height: impl Fn(f64, f64) -> f64) -> Part {
     let corners = [[-half, -half], [half, -half], [half, half], [-half, half]];
     Part { name: "hillside".to_owned(), ..sheet(corners.map(|[x, y]| dvec3(x, y, height(x, y)))) }

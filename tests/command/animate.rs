@@ -141,7 +141,7 @@ fn stopped_leaves_the_old_gif_and_no_half_one() {
     assert!(names.iter().all(|name| name == "day.gif" || name.starts_with("frame-")), "{names:?}");
 }
 
-/// They go, and nothing else does.
+/// They are removed, and nothing else.
 #[test]
 fn frames_of_a_longer_animation_do_not_stay_among_those_of_a_shorter_one() {
     let folder = site();

@@ -78,7 +78,7 @@ fn the_systems_faces_draw_what_noto_sans_lacks() {
 /// Another one.
 const OTHER: char = '\u{A4CE}';
 
-/// Two faces of which neither has the other's letter draw both, side by side.
+/// Two fonts, neither of which has the other's letter, draw both side by side.
 #[cfg(target_os = "linux")]
 #[test]
 fn letters_of_two_faces_stand_in_one_line() {

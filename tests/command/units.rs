@@ -113,7 +113,7 @@ fn what_is_plausible_in_metres_is_not_doubted() {
     assert!(mends(&mountain, "").is_empty());
 }
 
-/// STL is taken for z up, and may be y up.
+/// STL is assumed to have z up, but may have y up.
 #[test]
 fn a_model_that_is_taken_for_z_up_may_lie_the_other_way() {
     let [low, high] = [[-5.0, 0.0, -5.0], [5.0, 30.0, 5.0]];

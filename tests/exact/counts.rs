@@ -10,7 +10,7 @@ use gnomon::shadow::Technique;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::view::{Camera, Surface, View};
 
-/// Around the powers of two that a count, twice a count and half a count pass.
+/// Counts around the powers of two that a count, its double or its half exceeds.
 const PLATES: [u32; 12] = [127, 128, 129, 254, 255, 256, 257, 258, 510, 512, 514, 1024];
 
 /// Closed slabs, or single sheets.

@@ -40,7 +40,7 @@ fn program_that_is_not_there_is_told() {
     assert!(told.contains("no process can be started"), "{told}");
 }
 
-/// What takes others' code is read by the program that is named, and all else is not.
+/// Formats that need third-party code are read by the named program, and all others are not.
 #[test]
 fn readers_of_others_run_apart() {
     let folder = site();
@@ -83,7 +83,7 @@ mod bad_readers {
     use std::sync::atomic::{AtomicBool, Ordering};
     use std::time::{Duration, Instant};
 
-    /// A program; another process writes it, as none can be started that is still open in this one.
+    /// A program; another process writes it, since a file that is still open here cannot be started.
     fn program(folder: &Path, text: &str) -> PathBuf {
         let path = folder.join("reader.sh");
         let mut writer = Command::new("sh")
@@ -97,7 +97,7 @@ mod bad_readers {
         path
     }
 
-    /// What comes of a model that such a program reads; in a few seconds, whatever it does.
+    /// The result of a model that such a program reads, within a few seconds whatever it does.
     fn read(text: &str, limits: ReadLimits, given_up: &Arc<AtomicBool>) -> ModelError {
         let folder = site();
         let program = Some(program(folder.path(), text));

@@ -78,7 +78,7 @@ fn swap_number(bytes: &mut Vec<u8>, at: usize, number: &str) {
     bytes.splice(first..first + length, number.bytes());
 }
 
-/// Holds a reader to all mutations of a file; how many were read as models, and how many errors there were.
+/// Runs a reader on all mutations of a file; returns how many were read as models, and how many gave errors.
 pub(super) fn survives(ending: &str, bytes: &[u8]) -> [usize; 2] {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join(format!("model.{ending}"));

@@ -420,7 +420,7 @@ fn cut_points_are_refused() {
     assert!(told.contains("cut off") || told.contains("cannot be read"), "{told}");
 }
 
-/// Files in which numbers were turned over: none takes long, and none ends the program.
+/// Files with flipped numbers: none takes long, and none crashes the program.
 #[test]
 fn mutations_end_well() {
     let mut random = 0x2545_F491_4F6C_DD17_u64;

@@ -50,7 +50,7 @@ fn the_lesser_of_a_share_and_square_metres() {
     assert_eq!(limit, Some(Quantity::AreaM2(40.0)));
 }
 
-/// A number that is closer to its limit than it is known is neither kept nor missed.
+/// A number that differs from its limit by less than its error neither passes nor fails.
 #[test]
 fn closer_than_its_error_says_so() {
     let victoria = rule("au-vic-b21", &[]);

@@ -213,7 +213,7 @@ fn values_that_cannot_be_are_errors() {
     }
 }
 
-/// What a mistake in an option's value breaks is found before anybody chooses that value.
+/// An error that only one value of an option causes is found before anybody chooses that value.
 #[test]
 fn mistakes_do_not_wait_for_a_choice() {
     let broken = with("one_of = [\"1h\", \"2h\"]", "one_of = [\"1h\", \"2h\"]\nwords = [\"much\"]");

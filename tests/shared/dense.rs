@@ -14,8 +14,8 @@ pub(crate) struct Dense {
     pub(crate) to_sun: DVec3,
 }
 
-/// A room of 8 × 7 × 4 m without a roof: two walls, and bars before its open sides and over it, so many metres apart: 0.4
-/// for an overdraw of 109, 0.85 for one of 52. The camera stands in it, and so in the volumes.
+/// A room of 8 × 7 × 4 m without a roof: two walls, and bars in front of its open sides and above it. Their distance in
+/// metres is given: 0.4 for an overdraw of 109, 0.85 for one of 52. The camera is in the room, and so in the volumes.
 pub(crate) fn cage(pitch: f64) -> Dense {
     let (low, high) = (dvec3(-4.0, -3.5, 0.0), dvec3(4.0, 3.5, 4.0));
     let floor = cuboid("floor", low, dvec3(high.x, high.y, 0.05));

@@ -40,8 +40,8 @@ impl FarWrong {
     }
 }
 
-/// A map of the plan over some suns, by its default bias or another. Texels are as large as they are across the rays: what a
-/// low sun makes of them on the ground is not allowed for.
+/// A map of the plan for some suns, with its default bias or another. The size of texels is measured across the rays,
+/// without their stretching on the ground by a low sun.
 pub(crate) fn far_wrong(
     gpu: &Arc<Gpu>,
     scene: &Scene,

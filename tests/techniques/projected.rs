@@ -17,7 +17,7 @@ use gnomon::shadow::{PlanSurface, Scene, Technique, plan_surface};
 use gnomon::view::{Grid, Mask, Surface, SurfaceRows, View};
 use std::sync::Arc;
 
-/// How near an edge may pass a cell that differs, in cells.
+/// How close to the centre of a differing cell an edge must run, in cells.
 const ON_PROCESSOR: f64 = 1e-3;
 const ON_GPU: f64 = 1.0 / 128.0;
 
@@ -26,8 +26,8 @@ fn projected(scene: &Scene, view: View, sun: DVec3) -> Mask {
     draw(&mut Projected::new(scene, grid), sun)
 }
 
-/// Cells that differ from ray casting, or with `twin` from the plain scan, and those of them at which no edge runs within so
-/// much of a cell.
+/// Cells that differ from ray casting, or with `twin` from the simple scan, and those of them that have no edge within
+/// this distance, in cells.
 fn differing(scene: &Scene, view: View, sun: DVec3, drawn: &Mask, twin: bool, within: f64) -> (usize, Vec<usize>) {
     let View::Plan(grid) = view else { panic!("a plan") };
     let mut truth = RayCast::new(scene.clone(), view, None);
@@ -159,7 +159,7 @@ fn one_wrong_cell_is_seen() {
     assert_eq!(differing(&scene, view, sun, &drawn, true, ON_PROCESSOR).1, [at]);
 }
 
-/// Cells that see something else of the receivers than a ray does: of two faces at one height either may be seen.
+/// Cells that see another receiver than a ray does; of two faces at the same height either may be seen.
 fn seen_otherwise(scene: &Scene, view: View, surface: &Surface) -> Vec<usize> {
     let truth = RayCast::new(scene.clone(), view, None).surface().unwrap();
     let differs = |at: &usize| {

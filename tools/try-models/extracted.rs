@@ -37,7 +37,7 @@ pub(crate) fn facing_of(mesh: &Mesh, cap: &[u32]) -> Vec<bool> {
     mesh.faces.iter().zip(cap.chunks(3)).map(facing).collect()
 }
 
-/// Whether a face is so near to edge-on that on the adapter it may fall either way.
+/// Whether a face is so nearly edge-on that the adapter may decide it either way.
 pub(crate) fn near_edge_on(mesh: &Mesh, face: usize, light: DVec4) -> bool {
     let plane = mesh.planes()[face];
     plane.dot(light).abs() <= 1e-6 * plane.length() * light.length()
