@@ -1,7 +1,8 @@
-//! The shadow map's slope-scaled bias: `cargo bench --bench bias`. Prints a table in Markdown: how many of a site's cells
-//! are wrong further than two texels from a shadow's edge, by the bias. Counts, which do not drift.
+//! The shadow map's slope-scaled bias: `cargo bench --bench bias`. Prints a table in Markdown: for each bias, how many
+//! cells of a site are wrong and farther than two texels from a shadow's edge. These are counts, which do not depend on
+//! the machine's load.
 //!
-//! `docs/benchmarks/techniques.md` keeps a run.
+//! `docs/benchmarks/techniques.md` has the results of a run.
 
 #[path = "../tests/shared/far_wrong.rs"]
 mod far_wrong;

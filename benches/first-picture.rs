@@ -1,8 +1,8 @@
-//! How long it takes from the start of the program to the first picture of a model, and how much memory: `cargo bench --bench
-//! first-picture`. Prints a table in Markdown, and `-- FILE…` adds models of your own.
+//! Time and memory from the start of the program to the first picture of a model: `cargo bench --bench first-picture`.
+//! Prints a table in Markdown; `-- FILE…` adds models of your own.
 //!
-//! Each is `gnomon shadow FILE`, without the cache, as a process of its own. The IFC file is written by the bench itself: of
-//! 89 MB, as large as an office is with its furniture. The peak is that of the whole program: its own, and that of the
+//! Each is `gnomon shadow FILE` without the cache, as a separate process. The bench writes the IFC file itself: 89 MB,
+//! as large as an office building with its furniture. The peak is the sum of the program's memory and that of the
 //! process that reads the model.
 
 mod ifc_text;

@@ -1,9 +1,9 @@
-//! How long model files take to read, each at a size and at ten times that: `cargo bench --bench formats`. Prints a table in
-//! Markdown, and `-- FILE…` adds files of your own.
+//! How long it takes to read model files, each at one size and at ten times that size: `cargo bench --bench formats`.
+//! Prints a table in Markdown; `-- FILE…` adds files of your own.
 //!
-//! The files are written by the bench itself: a hilly sheet of triangles as OBJ and STL, buildings as CityJSON and as
-//! footprints, heights as an ASCII grid, walls and furniture as IFC; beside them stands the house of `sites/hillside`. Compare
-//! the columns, since absolute times drift with the machine.
+//! The bench writes the files itself: a hilly sheet of triangles as OBJ and STL, buildings as CityJSON and as
+//! footprints, heights as an ASCII grid, walls and furniture as IFC. The house of `sites/hillside` is added. Compare
+//! the columns, since absolute times vary with the machine's load.
 
 mod ifc_text;
 mod timing;
@@ -16,7 +16,7 @@ use timing::{median, timed};
 /// How often each file is read.
 const TIMES: usize = 5;
 
-/// A format's name, the ending of its files, and what writes one of so many things.
+/// A format's name, its extension, a function that writes a file with a given number of objects, and that number.
 type Writer = (&'static str, &'static str, fn(usize) -> Vec<u8>, usize);
 
 const WRITERS: [Writer; 6] = [
@@ -89,7 +89,7 @@ fn height(x: usize, y: usize) -> f64 {
     200.0 + 20.0 * (x as f64 / 37.0).sin() * (y as f64 / 51.0).cos()
 }
 
-/// Squares to a side of a sheet of about so many triangles.
+/// The number of squares along a side of a sheet with about this many triangles.
 fn side(triangles: usize) -> usize {
     (triangles as f64 / 2.0).sqrt().ceil() as usize
 }

@@ -1,4 +1,4 @@
-//! A synthetic IFC file: walls with an opening each, and furniture as triangles beside them.
+//! A synthetic IFC file: walls with one opening each, and furniture as triangles.
 
 use std::fmt::Write as _;
 
@@ -29,7 +29,7 @@ DATA;
 const AROUND: usize = 32;
 const ABOVE: usize = 16;
 
-/// A file of so many products: half of them are walls, with 12 triangles before they are cut, and half furniture.
+/// A file with this many products: half of them are walls, with 12 triangles before they are cut, and half furniture.
 pub(crate) fn ifc(products: usize) -> Vec<u8> {
     let (mut text, mut next) = (HEAD.to_owned(), 100);
     let mut contained = Vec::new();

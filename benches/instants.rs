@@ -1,7 +1,7 @@
-//! What an instant costs, stage by stage, on the sample sites: `cargo bench`. Prints a table in Markdown.
+//! The time that an instant takes, stage by stage, on the sample sites: `cargo bench`. Prints a table in Markdown.
 //!
-//! All figures of a row come from one run, stage beside stage; compare ratios, since absolute times drift with the
-//! machine. `docs/benchmarks/instants.md` keeps a run with the machine it ran on.
+//! All stages of a row are measured in one run; compare ratios, since absolute times vary with the machine's load.
+//! `docs/benchmarks/instants.md` has the results of a run and the machine.
 
 mod timing;
 

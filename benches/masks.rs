@@ -1,8 +1,8 @@
-//! Who finds the silhouettes: a whole mask of the stencil by each way, on the sample sites: `cargo bench --bench masks`.
-//! Prints a table in Markdown.
+//! A whole mask of the stencil with each silhouette finder, on the sample sites: `cargo bench --bench masks`. Prints a
+//! table in Markdown.
 //!
-//! Ways take turns at each sun, so that what else the machine does falls on all alike; compare ratios.
-//! `docs/benchmarks/silhouettes.md` keeps a run.
+//! Finders take turns for each sun position, so that other load on the machine affects all of them equally; compare
+//! ratios. `docs/benchmarks/silhouettes.md` has the results of a run.
 
 mod timing;
 

@@ -1,9 +1,10 @@
-//! Rays by the way in which they are asked: `cargo bench --bench rays`. Prints tables in Markdown.
+//! Ray casting with single rays and with beams: `cargo bench --bench rays`. Prints tables in Markdown.
 //!
-//! On one thread, nanoseconds of a ray and millions of rays a second, medians over the suns of a site's study: the plain
-//! caster, the same rays one by one, and in beams of 16 and of 64, with every kind of instructions that the machine has. The
-//! ways take turns at each sun, so that ratios hold whatever else the machine does. `-- SITE` takes another site than the
-//! samples, such as the city of `benches/peers`. `docs/benchmarks/rays.md` keeps a run with its machine.
+//! On one thread, nanoseconds per ray and millions of rays per second, medians over the suns of a site's study: for the
+//! plain caster, for the same rays one by one, and for beams of 16 and of 64, with each instruction set that the
+//! machine has. They take turns for each sun position, so that ratios do not depend on other load. `-- SITE` measures
+//! another site than the samples, such as the city of `benches/peers`. `docs/benchmarks/rays.md` has the results of a
+//! run and the machine.
 
 mod timing;
 

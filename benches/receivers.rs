@@ -1,8 +1,9 @@
-//! Light on patches, side by side: `cargo bench --bench receivers`. Prints tables in Markdown.
+//! Light on patches by each technique: `cargo bench --bench receivers`. Prints tables in Markdown.
 //!
-//! Per site: milliseconds a sample by filled textures (processor and adapter), by edge flags, by rays, and by the choice
-//! between them. Then the paper's own measure; and how the time grows with the occluders, with and without culling.
-//! `docs/benchmarks/receivers.md` keeps a run. All numbers of a table are of one run, so ratios hold.
+//! For each site, milliseconds per sample by filled textures (processor and adapter), by edge flags, by rays, and by
+//! the technique that is chosen automatically. Then the measure of the paper, and how the time grows with the number of
+//! occluders, with and without culling. `docs/benchmarks/receivers.md` has the results of a run. All numbers of a table
+//! come from one run, so their ratios are comparable.
 
 mod timing;
 
@@ -126,7 +127,7 @@ fn sites(gpu: &Arc<Gpu>) {
     println!();
 }
 
-/// A floor of one patch, and so many thin boxes over it.
+/// A floor of one patch, and a number of thin boxes over it.
 fn boxes_over_a_floor(count: u32, side: f64) -> Vec<Part> {
     let slab = |name: &str, low: DVec3, high: DVec3| {
         let corner =

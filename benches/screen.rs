@@ -1,5 +1,5 @@
-//! A screen for the real window without one: its frames are drawn as eframe draws them and waited for. Nothing is read
-//! back, as no window reads its frames back: that alone takes longer than drawing them.
+//! Draws the real window without a screen: frames are drawn as eframe draws them and waited for. They are not read
+//! back, since a window does not read its frames back either, and reading takes longer than drawing.
 
 use eframe::egui::{self, TexturesDelta};
 use eframe::egui_wgpu::{RenderState, RendererOptions, ScreenDescriptor, WgpuConfiguration};
@@ -14,7 +14,7 @@ pub(crate) struct Screen {
 }
 
 impl Screen {
-    /// A screen of so many pixels, on the window's own device.
+    /// A screen of this size in pixels, on the window's own device.
     pub(crate) fn new(width: u32, height: u32) -> Screen {
         let config = WgpuConfiguration { wgpu_setup: desktop::setup(), ..WgpuConfiguration::default() };
         let instance = pollster::block_on(config.wgpu_setup.new_instance());

@@ -1,10 +1,11 @@
-//! The finders side by side: `cargo bench --bench silhouettes`. Prints tables in Markdown.
+//! The silhouette finders compared: `cargo bench --bench silhouettes`. Prints tables in Markdown.
 //!
-//! Per model: building time and memory, nodes and edges (or classes) looked at for each one found, and the time of a
-//! query, the median over the instants of the site's study. All finders answer the same instant one after the other, so
-//! ratios hold whatever else the machine does. `docs/benchmarks/silhouettes.md` keeps a run with its machine.
-//! *gpu* stands with the number of runs in which edges were handed to the adapter; it tells nobody what it found, and
-//! its time is that of the whole submission. `-- --copies 10,100` adds `headquarters` copied so often.
+//! For each model: the time and memory of building; the nodes and edges (or classes) visited for each one found; and
+//! the time of a query, the median over the instants of the site's study. All finders answer for the same instant one
+//! after the other, so ratios do not depend on other load. `docs/benchmarks/silhouettes.md` has the results of a run
+//! and the machine. The row *gpu* has the number of runs in which edges were handed to the adapter; what it finds is
+//! not read back, and its time is that of the whole submission. `-- --copies 10,100` adds `headquarters` copied this
+//! often.
 
 #[path = "../tests/shared/dome.rs"]
 mod dome;

@@ -1,8 +1,8 @@
-//! What is done once a study: loading, welding, adjacency, planes, and the files, on the sample sites:
+//! The stages that run once per study, on the sample sites: loading, welding, adjacency, planes, and writing files:
 //! `cargo bench --bench stages`. Prints a table in Markdown.
 //!
-//! Instants and their sums are in `instants`; `docs/benchmarks/counts.md` keeps counts that do not drift. Compare ratios, since
-//! absolute times drift with the machine.
+//! Instants and their sums are in `instants`; `docs/benchmarks/counts.md` has counts, which do not depend on load.
+//! Compare ratios, since absolute times vary with the machine's load.
 
 mod timing;
 

@@ -1,8 +1,9 @@
-//! The techniques side by side: `cargo bench --bench techniques [-- SCENE]`. Prints tables in Markdown.
+//! The techniques compared: `cargo bench --bench techniques [-- SCENE]`. Prints tables in Markdown.
 //!
-//! Per scene and size of map: milliseconds of a shadow map (fast 2×2), the hybrid, the stencil and smoothies, split by the
-//! adapter's passes; and how many fragments reach the count with and without the hybrid's mask. Techniques take turns at
-//! each sun, so ratios hold whatever else the machine does. `docs/benchmarks/techniques.md` keeps a run.
+//! For each scene and map size: milliseconds of a shadow map (fast 2×2), the hybrid, the stencil and smoothies, split
+//! by the adapter's passes; and how many fragments are counted with and without the hybrid's mask. Techniques take
+//! turns for each sun position, so ratios do not depend on other load. `docs/benchmarks/techniques.md` has the results
+//! of a run.
 
 #[path = "../tests/shared/dense.rs"]
 mod dense;

@@ -1,4 +1,4 @@
-//! How long a call takes.
+//! Measures how long a call takes.
 
 use std::time::Instant;
 
@@ -10,7 +10,7 @@ pub(crate) fn timed<T>(times: &mut Vec<f64>, work: impl FnOnce() -> T) -> T {
     result
 }
 
-/// The median of what was timed.
+/// The median of the measured times.
 pub(crate) fn median(mut times: Vec<f64>) -> f64 {
     times.sort_by(f64::total_cmp);
     times.get(times.len() / 2).copied().unwrap_or(f64::NAN)

@@ -1,5 +1,6 @@
-//! How soon a picture follows the hand: the real window on all three sites, drawn at every frame, while the day's slider
-//! or the eye is dragged; and the view's own picture by each technique. `cargo bench --bench window` prints two tables.
+//! How quickly the picture follows the mouse: the real window on all three sites, drawn at every frame while the day's
+//! slider or the eye is dragged; and the view's own picture by each technique. `cargo bench --bench window` prints two
+//! tables.
 
 mod screen;
 mod timing;
@@ -69,7 +70,7 @@ fn path(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("sites").join(name)
 }
 
-/// The window, and the clock that it reads: a hand's pauses are what they are, and not what the harness counts for them.
+/// The window, and the clock that it reads, so that pauses of the hand have their real length, not that of the harness.
 struct Real {
     window: Harness<'static, App>,
     began: Instant,
@@ -114,7 +115,7 @@ impl Real {
     }
 }
 
-/// What came of a hand that moves without a pause.
+/// The measurements for a hand that moves without a pause.
 #[derive(Default)]
 struct Followed {
     /// Milliseconds of each frame.
@@ -122,11 +123,11 @@ struct Followed {
     /// From the beginning of the frame that took a movement in to the end of the first one that shows it, milliseconds.
     latencies: Vec<f64>,
     secs: f64,
-    /// What all threads took of the processor, seconds.
+    /// The processor time of all threads, seconds.
     processor_secs: f64,
 }
 
-/// Follows a hand for so long. A picture is known by what was asked for when it was wished.
+/// Follows the mouse for a given time. A picture is identified by the request for which it was drawn.
 fn follow(real: &mut Real, next: &mut impl FnMut() -> Event, time: Duration) -> Followed {
     let mut followed = Followed::default();
     let mut asked: VecDeque<((View, DVec3), Instant)> = VecDeque::new();
@@ -152,8 +153,8 @@ fn follow(real: &mut Real, next: &mut impl FnMut() -> Event, time: Duration) -> 
     followed
 }
 
-/// What this program has taken of the processor until now, seconds: other programs do not change it as they change how
-/// long things take. Not a number where the system does not say.
+/// The processor time of this program so far, seconds. Unlike elapsed time, it does not depend on other programs. NaN
+/// if the system does not report it.
 fn processor_secs() -> f64 {
     let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
     let fields: Vec<f64> =
@@ -162,7 +163,7 @@ fn processor_secs() -> f64 {
     fields.get(10..12).map_or(f64::NAN, |times| times.iter().sum::<f64>() / 100.0)
 }
 
-/// Whether a picture, of whatever size, is of what was asked.
+/// Whether a picture, of any size, shows what was requested.
 fn shows((view, to_sun): &(View, DVec3), (asked, asked_sun): &(View, DVec3)) -> bool {
     let (View::Camera(camera), View::Camera(asked)) = (view, asked) else { return false };
     to_sun == asked_sun && camera.eye == asked.eye && camera.target == asked.target
@@ -203,7 +204,7 @@ fn line(name: &str, on: &str) {
     );
 }
 
-/// What 95 of 100 stay below.
+/// The 95th percentile.
 fn most(mut times: Vec<f64>) -> f64 {
     times.sort_by(f64::total_cmp);
     times.get(times.len() * 95 / 100).copied().unwrap_or(f64::NAN)

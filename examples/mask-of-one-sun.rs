@@ -1,4 +1,4 @@
-//! A technique on a scene for one direction of the sun: which cells of a plan are in shadow.
+//! Which cells of a plan are in shadow for one direction of the sun, by a given technique.
 
 use gnomon::glam::dvec3;
 use gnomon::mesh::{Mesh, Part};

@@ -1,4 +1,4 @@
-//! A site that is made in memory, of a place, named triangles, a window and a grid; and the hours of shadow there.
+//! A site that is made in memory from a place, named triangles, a window and a grid, and its hours of shadow.
 
 use gnomon::choice::Engine;
 use gnomon::chrono::NaiveDate;

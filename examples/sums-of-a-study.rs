@@ -1,5 +1,5 @@
-//! The sums of a study as a slice, with the transform of its plan; and the same study in two parts, as two machines would
-//! share it.
+//! The sums of a study as a slice, with the transform of its plan; and the same study split in two parts, as for two
+//! machines.
 
 use gnomon::choice::Engine;
 use gnomon::profile::{Shaded, hours};

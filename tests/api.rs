@@ -1,4 +1,4 @@
-//! What other programs use: the three doors that the library's front page shows, and what they promise.
+//! What other programs use: the three entry points that the library's front page shows, and what they guarantee.
 
 #[path = "../examples/mask-of-one-sun.rs"]
 mod mask_of_one_sun;
@@ -41,7 +41,7 @@ fn track() -> SunTrack {
     SunTrack::window(&vienna(), &window, true).unwrap()
 }
 
-/// A box on whole metres, of which `f32` loses nothing.
+/// A box on whole metres, which `f32` represents exactly.
 fn tower() -> Part {
     cuboid("tower", dvec3(-6.0, -4.0, 0.0), dvec3(7.0, 5.0, 21.0))
 }

@@ -1,4 +1,4 @@
-//! The rules of `docs/architecture.md`, as far as a machine can see them: who may know whom, who may print, who may
+//! Checks the rules of `docs/architecture.md` that a machine can check: which module may use which, which may print or
 //! read files, how types are named, and how long files and functions may be.
 
 mod rules;
@@ -66,7 +66,7 @@ fn words_of_a_face(source: &str) -> Vec<(usize, &'static str)> {
     found
 }
 
-/// Where comments speak of options: in the words of one face, of what others ask, too. What cargo is told is none of it.
+/// Where comments name options of the command, which are the words of one face only. Options of cargo do not count.
 fn options_in_comments(source: &str) -> impl Iterator<Item = usize> {
     let comments = TextRanges::of(source).comments.into_iter();
     comments.flat_map(|comment| {

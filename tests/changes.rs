@@ -1,4 +1,5 @@
-//! Times of change between instants: hours are those of a study that is stepped at the resolution, and of closed forms.
+//! Times of change between instants: the hours must equal those of a study with steps as short as the resolution, and
+//! those of closed forms.
 
 mod closed_forms;
 mod said;
@@ -15,7 +16,7 @@ use std::time::Duration;
 const SITES: [&str; 3] = ["headquarters", "industry", "tower"];
 const MINUTES: usize = 60;
 
-/// Seconds as they are written; `step` is none.
+/// Parses a resolution that is a duration, in seconds.
 fn secs(text: &str) -> Option<u32> {
     Some(resolution_secs(text).expect("a duration"))
 }
@@ -36,7 +37,7 @@ fn study(site: &Site) -> (Vec<u64>, Vec<Bits>) {
     (outcome.expect("hours").profile.shaded.iter().collect(), shadows)
 }
 
-/// In how many of the hours of a study that is stepped by the minute a cell changes once, and more than once.
+/// In how many hours of a study with steps of a minute a cell changes once, and more than once.
 fn changes(minutes: &[Bits], cell: usize) -> [usize; 2] {
     let mut hours = [0; 2];
     for first in (0..minutes.len() - 1).step_by(MINUTES) {
@@ -50,8 +51,9 @@ fn changes(minutes: &[Bits], cell: usize) -> [usize; 2] {
     hours
 }
 
-/// Cell by cell what is found between hourly instants is what a study by the minute says, where the technique draws cells
-/// whole. Where it asks them singly that is so where no hour has more than one change; others are off by at most those hours.
+/// For each cell, the result between hourly instants equals that of a study by the minute if the technique draws whole
+/// masks. If it tests cells singly, they are equal if no hour has more than one change; otherwise the error is at most
+/// those hours.
 fn are_those_of_minutes(name: &str, asked: &Overrides) {
     let draws_whole = asked.engine == Some(Engine::Gpu) || asked.receivers == Some(Receivers::Ground);
     let of = |step: &str, resolution: &str| {
@@ -149,7 +151,7 @@ fn work_that_ends_between_two_instants_goes_on_from_the_first_of_them() {
     }
 }
 
-/// How many texels are off by more than so many seconds.
+/// How many texels are off by more than the given seconds.
 fn off(one: &PatchOutcome, other: &PatchOutcome, secs: u32) -> usize {
     one.hours.lit.iter().zip(&other.hours.lit).filter(|(one, other)| one.abs_diff(**other) > secs).count()
 }

@@ -1,4 +1,4 @@
-//! The table of techniques: what it says is what people read, and what the program does.
+//! The table of techniques must agree with the documents and with the program.
 
 use crate::site::{SITE, load};
 use gnomon::choice::{Engine, Filter, Finder, Method, Misfit, Promise, Setting, Settings, Subject, TABLE};

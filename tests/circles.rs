@@ -1,21 +1,22 @@
-//! No circles among the files of a room: where one file uses another's items, that one uses none of its own, neither
-//! directly nor through others. Then each file can be read by itself, with those below it.
+//! Files of a module must not depend on each other in circles: if a file uses another's items, the other must not use
+//! any of its own, neither directly nor through further files. Then each file can be read alone, with those that it
+//! uses.
 //!
-//! A file uses another where it imports an item that is declared there, or writes a path to one. Paths are followed
-//! through re-exports to where an item is declared, so that a `mod.rs` which only declares and re-exports is used by
-//! nobody; and what it re-exports it does not use, unless it writes the name itself.
+//! A file uses another if it imports an item that is declared there, or writes a path to one. Paths are followed
+//! through re-exports to the declaration. So a `mod.rs` that only declares and re-exports is used by nobody, and does
+//! not use what it re-exports unless it writes the name itself.
 
 use crate::architecture::{files, without_comments};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// The rooms, and folders of rooms, that are not held to it yet.
+/// The modules, and folders in modules, that do not follow the rule yet.
 const NOT_HELD: &[&str] = &[];
 
 /// The folders of `desktop` as layers: each knows itself and those before it, and no file beside the folders.
 const LAYERS: &[&str] = &["state", "results", "work", "stage", "parts", "app"];
 
-/// A module's place below `src`, the outermost module first.
+/// A module's path below `src`, the outermost module first.
 type Module = Vec<String>;
 
 /// One name that a file imports.
@@ -97,7 +98,7 @@ impl Source {
     }
 }
 
-/// Reads what follows `use`, or stands in its braces, and returns where it ends; nothing where it is no import.
+/// Reads what follows `use`, or is in its braces, and returns where it ends; `None` if it is not an import.
 fn imported(tokens: &[&str], mut at: usize, prefix: &[String], found: &mut Vec<Import>) -> Option<usize> {
     let mut path = prefix.to_vec();
     loop {
@@ -141,7 +142,7 @@ impl Sources {
         Sources(files.iter().map(|(path, code)| (module_of(path), Source::read(code))).collect())
     }
 
-    /// The file that declares what a path leads to, seen from a module; nothing where that is no item of the crate.
+    /// The file that declares the item of a path, as seen from a module; `None` if it is not an item of the crate.
     fn declared_in(&self, from: &Module, path: &[String], depth: usize) -> Option<Module> {
         let (mut module, mut path) = (from.clone(), path);
         match path.first()?.as_str() {
@@ -202,7 +203,7 @@ fn reached<'a>(uses: &'a BTreeMap<&Module, BTreeMap<Module, String>>, from: &Mod
     reached
 }
 
-/// The arrows that lie on a circle, each with the path that makes it.
+/// The dependencies in a circle, each with the path that causes it.
 fn circles(files: &[(PathBuf, String)], not_held: &[&str]) -> Vec<String> {
     let sources = Sources::read(files);
     let is_held = |module: &Module| !not_held.iter().any(|room| Path::new(&module.join("/")).starts_with(room));
@@ -218,7 +219,7 @@ fn circles(files: &[(PathBuf, String)], not_held: &[&str]) -> Vec<String> {
     found
 }
 
-/// The arrows that lead from a layer of a room to one behind it or to a file beside the layers, each with its path.
+/// The dependencies of a layer on a later one or on a file beside the layers, each with its path.
 fn upward(files: &[(PathBuf, String)], room: &str, layers: &[&str]) -> Vec<String> {
     let sources = Sources::read(files);
     let is_of_room = |module: &Module| module.first().is_some_and(|first| first == room);

@@ -1,4 +1,4 @@
-//! Clocks against another implementation, and where their rules come from.
+//! Local time against another implementation, and where the rules of time zones come from.
 
 use chrono::{DateTime, MappedLocalTime, NaiveDateTime, TimeDelta, TimeZone, Utc};
 use gnomon::sun::{Place, Reading, SunError, SunTrack, TzVersion, Zone, ZoneRules, zone_names};
@@ -25,7 +25,7 @@ fn table() -> (Vec<DateTime<Utc>>, HashMap<&'static str, Vec<&'static str>>) {
     (instants, offsets)
 }
 
-/// The bundled rules, whatever the system has.
+/// The bundled rules, regardless of the system's.
 fn bundled(name: &str) -> Zone {
     ZoneRules::bundled().zone(name).unwrap_or_else(|| panic!("no zone {name}"))
 }
@@ -94,7 +94,7 @@ fn british_columbia_does_not_fall_back() {
     assert!((azimuth - 163.19).abs() < 0.006 && (altitude - 15.65).abs() < 0.006, "{azimuth} {altitude}");
 }
 
-/// pvlib's SPA, at 10:00 UTC, with another ΔT: the last rule goes on.
+/// pvlib's SPA, at 10:00 UTC, with another ΔT: the last rule continues.
 #[test]
 fn summer_time_goes_on_after_2099() {
     let vienna = Place::new("", 48.2, 16.37, 0.0, None).expect("a place");
@@ -258,7 +258,7 @@ fn zones_are_told_by_name() {
     assert_eq!(paris.format("%H:%M %Z").to_string(), "14:00 CEST");
 }
 
-/// What is said of a zone that is none, at a place in Munich.
+/// The message about a time zone that does not exist, at a place in Munich.
 fn way_out(name: &str) -> String {
     let error = Place::new("", 48.14, 11.58, 0.0, Some(name)).expect_err("no such zone").to_string();
     let head = format!("time zone \"{name}\" is not in the IANA list; ");

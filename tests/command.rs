@@ -1,4 +1,4 @@
-//! The command, driven as its users drive it: files, streams and exit statuses.
+//! The command as its users run it: files, streams and exit statuses.
 
 mod animate;
 mod check;
@@ -161,7 +161,7 @@ fn every_finder_draws_the_same_mask_and_is_named() {
     fails(folder.path(), rays, 2, &["--silhouette", "leave it out"]);
 }
 
-/// A system whose only backend is one that it has not.
+/// A system whose only selected backend does not exist.
 #[cfg(unix)]
 #[test]
 fn without_an_adapter_the_processor_draws_and_says_so() {
@@ -203,7 +203,8 @@ fn failures_leave_no_file() {
     assert_eq!(names(folder.path().to_owned()), ["open.glb", "out", "site.toml", "tower.glb"]);
 }
 
-/// Without a subcommand the window opens; where there is no display, that is told. A program without a window prints its help.
+/// Without a subcommand the window opens; without a display there is an error. A program without a window prints its
+/// help.
 #[test]
 #[cfg(target_os = "linux")]
 fn no_subcommand_is_the_window() {

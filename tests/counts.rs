@@ -1,5 +1,5 @@
-//! How much work is done, in counts that do not drift, held against those in `docs/benchmarks/counts.md`: a technique that
-//! comes to look at twice as much is found out on a machine that is busy with something else.
+//! The amount of work in counts, compared with those in `docs/benchmarks/counts.md`. Counts do not depend on load, so a
+//! technique that begins to visit twice as much is noticed even on a busy machine.
 
 use crate::shared::drawing::gpu;
 use gnomon::choice::{MAP_SIZE, Receivers};
@@ -84,7 +84,7 @@ fn recorded(record: &str) -> Vec<Row> {
     table.lines().filter(|line| line.starts_with('|')).filter_map(row).collect()
 }
 
-/// What is off, and what stands in one table alone.
+/// Counts that differ, and those that only one table has.
 fn off(recorded: &[Row], found: &[Row]) -> Vec<String> {
     let mut off = Vec::new();
     for (name, counts) in found {

@@ -1,4 +1,5 @@
-//! Maps and the Earth: positions and meridian convergence against PROJ, published constants and textbooks' closed forms.
+//! Maps and the Earth: positions and meridian convergence against PROJ, published constants and closed forms from
+//! textbooks.
 
 use glam::DVec3;
 use gnomon::crs::{Crs, CrsKind, GeodeticPoint, LocalFrame, MapToLocal};

@@ -1,4 +1,4 @@
-//! The seconds that count are those with the sun up, at any step: against pvlib, and the same in all answers.
+//! Only seconds with the sun up are counted, at any step: against pvlib, and consistently in all results.
 
 use crate::shared::program::{PLACE, done, fails, gnomon, site, stderr};
 use chrono::{NaiveDate, TimeDelta, Timelike};

@@ -1,4 +1,4 @@
-//! Deliverables as a program takes them that uses the library: in memory as in a folder, and from where they were stopped.
+//! Results as a program that uses the library gets them: in memory the same as in a folder, and resumed after a stop.
 
 use crate::shared::program::site;
 use gnomon::choice::{Engine, Receivers};
@@ -28,7 +28,7 @@ fn inside(path: &Path) -> Folder<'_> {
     Folder { path, who: "a test", inputs: &[] }
 }
 
-/// What lies in folders, by its name without the folder; how long it took is another each time.
+/// The files of a folder by name, without timings, which differ each time.
 fn comparable(files: impl Iterator<Item = NamedFile>) -> BTreeMap<PathBuf, Vec<u8>> {
     let timeless = |bytes: Vec<u8>| {
         let mut report: serde_json::Value = serde_json::from_slice(&bytes).unwrap();
@@ -47,7 +47,8 @@ fn read(folder: &Path) -> impl Iterator<Item = NamedFile> {
     paths.filter(|path| path.is_file()).map(|path| (path.clone(), std::fs::read(path).unwrap()))
 }
 
-/// All that a folder gets comes back from memory, the same to the byte: of a plan in one go, and of one in tiles.
+/// Everything that is written to a folder can also be returned in memory, the same to the byte, both for a whole plan
+/// and for tiles.
 #[test]
 fn memory_holds_what_a_folder_gets() {
     let folder = site();
@@ -89,7 +90,7 @@ fn memory_holds_what_a_folder_gets() {
     }
 }
 
-/// Hours that are to be shown go on where they were stopped; where another works on the shelf they are found all the same.
+/// Hours for display continue where they were stopped; if another study is using the shelf, they are still found.
 #[test]
 fn hours_go_on_from_their_shelf() {
     let folder = site();
@@ -121,7 +122,7 @@ fn hours_go_on_from_their_shelf() {
     assert_eq!(read(&shelf).count(), 0, "nothing stays of a study that is done");
 }
 
-/// So do hours with each instant's shadow, of which outlines are drawn.
+/// So do hours with the shadow of each instant, from which outlines are drawn.
 #[test]
 fn outlines_go_on_from_their_shelf() {
     let folder = site();
@@ -212,7 +213,7 @@ fn patches_go_on_from_where_they_were_stopped() {
     assert!(comparable(read(&out)) == comparable(files.into_iter()), "a file is another one");
 }
 
-/// A comparison goes on in the state in which it was stopped.
+/// A comparison continues in the state in which it was stopped.
 #[test]
 fn comparison_goes_on_from_where_it_was_stopped() {
     let folder = site();
@@ -246,7 +247,7 @@ fn comparison_goes_on_from_where_it_was_stopped() {
     }
 }
 
-/// The shelf is for work that is stopped: where nothing can be kept on it, hours are found all the same, and that is told.
+/// The shelf is for stopped work: if nothing can be kept on it, hours are still found, and a message says so.
 #[test]
 fn shelf_that_cannot_be_used_stops_no_study() {
     let folder = site();
@@ -293,7 +294,7 @@ fn shelf_holds_so_many_studies() {
 /// Makes a deliverable.
 type Write<'a> = &'a dyn Fn(Sink<'_>) -> WrittenFiles;
 
-/// So it is with all other deliverables but the animation, whose GIF is made of files.
+/// The same holds for all other deliverables except the animation, whose GIF is made of files.
 #[test]
 fn every_deliverable_goes_into_memory() {
     let folder = site();
@@ -347,7 +348,7 @@ fn every_deliverable_goes_into_memory() {
     }
 }
 
-/// A time that is known is the one that is written, where clocks show it twice too.
+/// A given instant is the one that is reported, even if clocks show that time twice.
 #[test]
 fn known_time_is_the_one_that_is_written() {
     let folder = site();

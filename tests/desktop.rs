@@ -1,4 +1,4 @@
-//! The window, driven by the names that it gives its parts, as a person and as assistive technology would.
+//! The window, driven by the names of its parts, as a person or assistive technology would drive it.
 
 mod changing;
 mod comparing;
@@ -27,12 +27,12 @@ use gnomon::desktop::{self, App};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// The window, with a site in it where one is named, once all is drawn.
+/// The window, with a site if one is named, once everything is drawn.
 pub(crate) fn window(path: Option<&Path>) -> Harness<'static, App> {
     scaled(path, 1.0, egui::Theme::Light)
 }
 
-/// The same in another theme, with an interface so many times as large; always of 1280 × 720 pixels.
+/// The same in another theme, with a scale of the interface; always of 1280 × 720 pixels.
 pub(crate) fn scaled(path: Option<&Path>, scale: f32, theme: egui::Theme) -> Harness<'static, App> {
     let path = path.map(Path::to_owned);
     let mut harness = Harness::<App>::builder()
@@ -45,7 +45,7 @@ pub(crate) fn scaled(path: Option<&Path>, scale: f32, theme: egui::Theme) -> Har
     harness
 }
 
-/// Goes on until nothing is on its way.
+/// Runs until no work is pending.
 pub(crate) fn settle(harness: &mut Harness<'_, App>) {
     let begun = Instant::now();
     let mut calm = 0;
@@ -72,20 +72,20 @@ pub(crate) fn sample(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("sites").join(path)
 }
 
-/// Clicks what is named so, as assistive technology does: wherever its panel is scrolled to.
+/// Clicks the part with this name, as assistive technology does, wherever its panel is scrolled to.
 pub(crate) fn click(harness: &mut Harness<'_, App>, label: &str) {
     harness.get_by_label(label).click_accesskit();
     harness.step();
     harness.step();
 }
 
-/// Types into a field instead of what it says, and finishes it.
+/// Replaces the text of a field, and finishes it.
 pub(crate) fn write(harness: &mut Harness<'_, App>, label: &str, text: &str) {
     type_into(harness, egui::Role::TextInput, label, text);
     harness.step();
 }
 
-/// The same with a field of a number; what comes of it is waited for.
+/// The same with a number field, and waits for the result.
 pub(crate) fn enter(harness: &mut Harness<'_, App>, label: &str, text: &str) {
     type_into(harness, egui::Role::SpinButton, label, text);
     settle(harness);
@@ -104,14 +104,14 @@ fn type_into(harness: &mut Harness<'_, App>, role: egui::Role, label: &str, text
     harness.step();
 }
 
-/// The whole name of the part whose name holds this, and where it is.
+/// The complete name of the part whose name contains this, and its position.
 pub(crate) fn named(harness: &Harness<'_, App>, part: &str) -> (String, egui::Rect) {
     let node = harness.get_by_label_contains(part);
     let whole = node.accesskit_node();
     (whole.label().or_else(|| whole.value()).unwrap_or_default(), node.rect())
 }
 
-/// What a part that is named so says beyond its name.
+/// The text of the part with this name, without the name.
 pub(crate) fn value(harness: &Harness<'_, App>, label: &str) -> String {
     harness.get_by_role_and_label(egui::Role::TextInput, label).value().unwrap_or_default()
 }
@@ -136,7 +136,7 @@ pub(crate) fn drop_file(harness: &mut Harness<'_, App>, path: &Path) {
     settle(harness);
 }
 
-/// A pointer that comes, presses and releases in one place; what comes of it is waited for.
+/// A pointer that comes, presses and releases in one place; waits for the result.
 pub(crate) fn click_at(harness: &mut Harness<'_, App>, at: Pos2) {
     harness.hover_at(at);
     harness.step();

@@ -1,4 +1,4 @@
-//! The documents for people: links that lead somewhere, and a README that one reads.
+//! The documents for people: links that lead somewhere, and a README that can be read.
 
 use std::path::{Path, PathBuf};
 
@@ -108,11 +108,11 @@ const STUMBLES: &[(&str, &str)] = &[
     ("seed 0", "the paper's author, title and section"),
 ];
 
-/// The same in documents alone, the changelog too: readers of the code know who is told.
+/// The same only in documents, including the changelog: readers of code know who "is told" means.
 const STUMBLES_OF_DOCUMENTS: &[(&str, &str)] =
     &[("is told ", "is reported"), ("are told ", "are reported"), ("stays told ", "remains reported")];
 
-/// The words of a text over which readers stumble, in whatever case.
+/// The words of a text at which readers stumble, in any case.
 fn stumbles(of: &[(&str, &str)], name: &str, text: &str) -> Vec<String> {
     let lines = text.lines().enumerate();
     let found = lines.flat_map(|(at, line)| {

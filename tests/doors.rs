@@ -1,5 +1,5 @@
-//! What the library's documentation shows: the three doors and the types that they speak in. All else that is public is
-//! hidden there, or stands behind the feature `test-hooks`.
+//! The library's documentation shows the three entry points and their types. All other public items are hidden there or
+//! need the feature `test-hooks`.
 
 use std::path::Path;
 

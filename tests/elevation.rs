@@ -1,4 +1,4 @@
-//! A side along parallel rays: what it sees and what shades it, by closed forms.
+//! A side along parallel rays: what it sees and what shades it, against closed forms.
 
 use crate::shared::dense::cuboid;
 use crate::shared::drawing::{gpu, to_sun};

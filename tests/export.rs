@@ -1,4 +1,4 @@
-//! Files that go out: what is in them, and that they come whole or not at all.
+//! Exported files: their content, and that they are written completely or not at all.
 
 mod camera;
 mod contour;

@@ -1,4 +1,4 @@
-//! What is asked far from the place, in map coordinates as a rule, is told before the study.
+//! Requests far from the place, usually in map coordinates by mistake, are reported before the study.
 
 use crate::shared::said;
 use gnomon::site::{Overrides, Site, load_probes};

@@ -1,5 +1,5 @@
-//! What lies in the folders that are written to: nothing of the user's is lost there, and nothing of another study's is
-//! taken for one's own.
+//! Existing files in output folders: the user's are never lost, and those of another study are never mistaken for one's
+//! own.
 
 mod inputs;
 mod lock;

@@ -1,4 +1,4 @@
-//! Formats of model files: what is read of each, what is told, and one building that each writes in its own way.
+//! Formats of model files: what is read from each, the messages, and one building written in all of them.
 
 mod apart;
 pub(crate) mod building;

@@ -1,4 +1,4 @@
-//! The mesh, its silhouettes, its volumes and the rays cast at it, each against a plain re-computation.
+//! The mesh, its silhouettes, its volumes and ray casting, each against a simple recomputation.
 
 mod beams;
 mod planes;

@@ -1,4 +1,5 @@
-//! Where models stand on Earth: by their coordinates, by their anchors, by what the user writes; and the place they propose.
+//! Where models stand on Earth: by their coordinates, by their anchors, by what the user writes; and the place they
+//! suggest.
 
 mod doubts;
 mod told;
@@ -406,7 +407,7 @@ fn a_bare_model_needs_no_place_where_its_file_has_one() {
     assert!((corners(&site.mesh, 0)[0].y + 11080.0).abs() < 100.0, "{}", corners(&site.mesh, 0)[0]);
 }
 
-/// What the user says the place is stays it; a file far off is told, and a map's anchor stays where it is.
+/// The place given by the user is used; a file far from it is reported, and a map's anchor stays where it is.
 #[test]
 fn sources_that_disagree_are_both_shown() {
     let two = anchored(vec![map_anchor(0.0), site_anchor([8.5, 49.1004], Some(5.0))]);
@@ -475,7 +476,7 @@ fn references_say_unit_axis_place_and_north() {
     assert_eq!((model.crs.as_deref(), model.stands, model.convergence_deg, model.north_deg), (None, None, None, 0.0));
 }
 
-/// Footprints know nothing of the sea: the elevation is that of the next model that says one, in whatever order.
+/// Footprints have no heights above the sea: the elevation is that of the next model that has one, in any order.
 #[test]
 fn heights_above_the_ground_say_no_elevation() {
     let footprints = Model { from_ground: vec![true], ..on_map("EPSG:31467", GAUSS, 0.0) };

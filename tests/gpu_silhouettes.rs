@@ -1,4 +1,4 @@
-//! Silhouettes found on the GPU against those found on the processor, edge for edge; and the masks that come of them.
+//! Silhouettes found on the GPU against those found on the processor, edge for edge; and the resulting masks.
 
 use crate::geometry::silhouettes::{naive, sums};
 use crate::geometry::{light, modelled, part, soup, sphere};
@@ -22,7 +22,7 @@ use gnomon::view::{Camera, Grid, Mask, View};
 use proptest::prelude::*;
 use std::sync::OnceLock;
 
-/// Far more than any mesh of these tests takes.
+/// Far more than any mesh of these tests needs.
 const PLENTY: u64 = 1 << 27;
 
 fn program() -> &'static ExtractionProgram {
@@ -50,7 +50,7 @@ fn brute_force(mesh: &Mesh, light: DVec4) -> Vec<DirectedEdge> {
     edges
 }
 
-/// Holds one extraction, in runs of at most `most` bytes, against the processor.
+/// Compares one extraction, in runs of at most `most` bytes, with the processor.
 fn check(name: &str, mesh: &Mesh, light: DVec4, to_infinity: bool, most: u64) -> usize {
     let sought = WallQuery { local_light: light, to_infinity, with_cap: true, halved: false, borders: None };
     let ([walls, cap], runs) = extracted(mesh, &sought, most).unwrap();
@@ -182,7 +182,7 @@ proptest! {
 const WAYS: [Silhouettes; 3] =
     [Silhouettes::OnProcessor(ProcessorFinder::BruteForce), Silhouettes::OnGpu, Silhouettes::InVertexShader];
 
-/// Draws by all ways, each sun twice and others between.
+/// Draws with all methods, each sun twice and others in between.
 fn masks(scene: &Scene, view: View, suns: &[DVec3]) -> [Vec<Mask>; 3] {
     WAYS.map(|way| {
         let mut stencil = Stencil::new(gpu(), scene.clone(), view, way).unwrap();

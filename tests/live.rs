@@ -1,4 +1,4 @@
-//! The view that is drawn again and again is drawn as the single instant is.
+//! A view that is drawn repeatedly gives the same picture as a single instant.
 
 use crate::shared::drawing::gpu;
 use gnomon::choice::{Method, Settings};

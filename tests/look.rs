@@ -1,4 +1,4 @@
-//! The window's picture has the look of a drawing: whole pictures of the two are held against each other, pixel by pixel.
+//! The window's picture looks like a drawing: both are compared as whole pictures, pixel by pixel.
 
 use crate::shared::drawing::gpu;
 use gnomon::choice::{Engine, Method, Receivers, Settings};
@@ -190,7 +190,7 @@ impl Compared {
 }
 
 impl Pair {
-    /// Which planes are seen within so many pixels.
+    /// Which planes are seen within a distance in pixels.
     fn planes_near(&self, pixel: usize, reach: usize) -> BTreeSet<u32> {
         let (column, row) = (pixel % self.width, pixel / self.width);
         let rows = self.seen.len() / self.width;

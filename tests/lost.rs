@@ -1,4 +1,4 @@
-//! A graphics device that is lost in the midst of a study: all is done again, and comes to the same.
+//! A graphics device that is lost in the middle of a study: the work is repeated, and the result is the same.
 
 use gnomon::choice::{Engine, Method, Receivers};
 use gnomon::deliver::profile::{ProfileRequest, profile};
@@ -21,7 +21,7 @@ fn works() -> Site {
     site
 }
 
-/// What a study tells: its notes, how often it started over, and the instants that were drawn.
+/// What a study reports: its notes, how often it started over, and the instants that were drawn.
 #[derive(Debug, Default)]
 struct Told {
     notes: Vec<String>,
@@ -56,7 +56,7 @@ impl Told {
         assert!(last.contains(": the work is done again on the processor, by '") && last.ends_with('\''), "{last}");
     }
 
-    /// Hears, and takes the next device away as soon as the work begins again: as often as that is left.
+    /// Listens, and removes the next device as soon as the work begins again, as often as requested.
     fn losing<'a>(&'a mut self, mut more: usize, checks: u32) -> impl FnMut(Event<'_>) -> ControlFlow<()> + 'a {
         lose_after(checks);
         move |event| {
@@ -144,7 +144,7 @@ fn patches_come_to_the_same() {
     assert!(again.hours.lit == right.hours.lit && again.hours.lit.iter().any(|secs| *secs > 0));
 }
 
-/// A driver that fails again and again: the processor does it, where nobody asked for what draws on an adapter alone.
+/// A driver that fails repeatedly: the processor takes over, unless the request needs an adapter.
 #[test]
 fn processor_does_what_no_device_does() {
     let lost = || GpuError::Lost { adapter: "some card".to_owned(), reason: "memory\nis full".to_owned() };
@@ -182,7 +182,7 @@ fn processor_does_what_no_device_does() {
     assert!(done.is_err() && attempts == 1);
 }
 
-/// What an adapter alone can do is done by one that is a program, where real ones fail: and by the same technique.
+/// If real adapters fail, a software adapter does what only an adapter can do, with the same technique.
 #[test]
 fn software_adapter_does_what_the_processor_cannot() {
     let site = works();
@@ -232,7 +232,7 @@ fn verification_comes_to_the_same() {
     assert!(error.contains("only a graphics adapter can draw what was requested") && !error.contains('\n'), "{error}");
 }
 
-/// A study whose progress is kept goes on from there on a new device: what was done is not done again.
+/// A study that stores its progress continues from there on a new device: nothing is done twice.
 #[test]
 fn study_goes_on_from_what_was_kept() {
     let site = works();
@@ -269,7 +269,7 @@ fn study_goes_on_from_what_was_kept() {
     }
 }
 
-/// What a stopped study keeps in its folder is what it goes on from, also where a device is lost after that.
+/// A study resumes from the files of a stopped one, also if a device is lost after that.
 #[test]
 fn stopped_study_goes_on_from_its_folder_on_a_new_device() {
     let site = works();

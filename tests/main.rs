@@ -1,4 +1,4 @@
-//! All tests in one binary, which links once.
+//! All tests in one binary, so that it is linked only once.
 
 mod api;
 mod architecture;

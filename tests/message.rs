@@ -1,4 +1,4 @@
-//! What errors and notes say of the fields of a request, in the words of each face.
+//! How errors and notes name the fields of a request in each interface.
 
 use crate::shared::program::done;
 use crate::site::{SITE, load, some};
@@ -65,7 +65,7 @@ fn fields_are_options_of_the_command() {
     }
 }
 
-/// The causes of an error are said in the same words, and once.
+/// The causes of an error use the same words, and each is printed once.
 #[test]
 fn errors_within_errors_are_worded() {
     let lost = || GpuError::Lost { adapter: "some card".to_owned(), reason: "memory\nis full".to_owned() };
@@ -78,7 +78,7 @@ fn errors_within_errors_are_worded() {
     assert_eq!(said, format!("the picture cannot be drawn: {what} (--cell) or --engine cpu"));
 }
 
-/// What a site file says is spoken of by its keys, whoever asks; what is asked beside it by the face's own words.
+/// Messages name values of a site file by its keys in every face, and other settings by the face's own words.
 #[test]
 fn site_files_have_keys_and_faces_have_words() {
     let days = SITE.replace("date = 2026-09-18", "dates = [2026-09-18, 2026-09-19]");
@@ -98,7 +98,7 @@ fn site_files_have_keys_and_faces_have_words() {
     );
 }
 
-/// Notes go into files, too: in the words of whoever asked.
+/// Notes are also written to files, in the words of the face that made the request.
 #[test]
 fn notes_are_in_the_words_of_who_asks() {
     let folder = crate::command::units::folder(&crate::command::units::lying(), "");

@@ -1,4 +1,4 @@
-//! What every mistake in a site file or an option is told: one line, the file, the key and the way out.
+//! The message for every mistake in a site file or an option: one line with the file, the key and a way out.
 
 use crate::shared::program::fails;
 use crate::site::{SITE, folder, load, some};
@@ -11,7 +11,7 @@ use gnomon::site::{Overrides, Site, load_sun};
 use proptest::prelude::*;
 use std::path::Path;
 
-/// Expects a mistake in the site file that is told in these words.
+/// Expects an error in the site file with this message.
 fn told(from: &str, to: &str, words: &[&str]) {
     assert!(SITE.contains(from), "{from}");
     let message = complaint(&SITE.replace(from, to), &Overrides::default());
@@ -154,7 +154,7 @@ fn wrong_options_are_wrong_use() {
     wrong(Overrides { size: Some(u32::MAX), ..none() }, "2³¹");
 }
 
-/// What an option says is read before anything else, and what cannot be is told by the option.
+/// Options are read before anything else, and errors about them name the option.
 #[test]
 fn values_that_cannot_be_read_name_their_option() {
     let folder = folder(SITE);

@@ -1,4 +1,4 @@
-//! Model files: what is read, under which names, and what is refused. The files are built here, byte by byte.
+//! Model files: what is read, names, and what is refused. The files are built here byte by byte.
 
 mod hostile;
 mod names;
@@ -164,7 +164,7 @@ pub(crate) fn normal(part: &Part) -> DVec3 {
     part.triangles.iter().map(|triangle| of(triangle.map(|vertex| part.positions[vertex as usize]))).sum()
 }
 
-/// Reads a model and puts it where it stands.
+/// Reads a model and places it.
 fn load(path: &Path, placement: &Placement) -> Result<formats::Model, ModelError> {
     formats::read(path, &placement.read_options()).map(|model| placement.place(model))
 }

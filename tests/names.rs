@@ -1,5 +1,5 @@
-//! Names of components and of files, as a site file means them; and what the sites come to whose models need more than
-//! their triangles to be read.
+//! Names of components and files in site files, and the results of sites whose models need more than their triangles to
+//! be read.
 
 use crate::model::poses::{morphing, skinned};
 use crate::model::{Model, push};
@@ -73,7 +73,7 @@ fn names_match_however_they_are_composed() {
     }
 }
 
-/// macOS takes letters apart in the names of files, and what is written elsewhere does not.
+/// macOS decomposes letters in file names, but other sources do not.
 #[test]
 fn files_are_found_however_their_names_are_composed() {
     let (composed, apart) = ("Fa\u{e7}ade", "Fac\u{327}ade");
@@ -133,7 +133,7 @@ fn a_scene_is_named_in_the_site_file() {
     }
 }
 
-/// Another scene is another model: what was read serves no more.
+/// Another scene is another model: the one that was read is not reused.
 #[test]
 fn models_are_read_again_for_another_scene() {
     let folder = folder(SITE);
@@ -145,7 +145,7 @@ fn models_are_read_again_for_another_scene() {
     assert!(text.contains("scene = 1"), "{text}");
 }
 
-/// What light passes and casts all the same is told, as long as it casts.
+/// Transparent components that cast are reported as long as they cast.
 #[test]
 fn see_through_materials_that_cast_are_told() {
     let mut model = crate::model::poses::tower(30.0);
@@ -232,7 +232,7 @@ fn the_same_tower_has_the_same_shadow() {
     }
 }
 
-/// The note is told wherever an answer is: on stderr, in the report, by check on stdout.
+/// The note is printed with every result: on stderr, in the report, by check on stdout.
 #[test]
 fn what_is_left_out_is_told_with_every_answer() {
     let folder = crate::shared::program::site();

@@ -1,4 +1,4 @@
-//! What the hybrid's mask keeps away from the count, told in fragments, where volumes lie over each other a hundredfold.
+//! How many fragments the hybrid's mask saves the count, in scenes where a hundred volumes overlap.
 
 use crate::shared::dense::{self, Dense};
 use crate::shared::drawing::gpu;

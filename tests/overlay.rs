@@ -82,7 +82,7 @@ fn meets(eye: DVec3, ray: DVec3, quad: &Quad) -> Option<f64> {
     (far > 0.0 && (0..4).all(side)).then_some(far)
 }
 
-/// How many walls (and, of casters that are looked through, sides) lie before what a ray sees.
+/// How many walls (and sides of transparent casters) lie in front of what a ray sees.
 fn layers(boxes: &[(DVec3, DVec3)], receive: bool, eye: DVec3, ray: DVec3, sun: DVec3) -> u8 {
     let solid: Vec<Quad> = boxes.iter().flat_map(|&(low, high)| sides(low, high)).map(|(quad, _)| quad).collect();
     let ground = -eye.z / ray.z;

@@ -1,4 +1,5 @@
-//! Faces gathered into flat patches: nothing lost, holes respected, the outer side judged, texels where they belong.
+//! Faces gathered into flat patches: all faces are kept, holes respected, the outer side judged, and texels placed
+//! correctly.
 
 use crate::shared::dense::cuboid;
 use glam::{DVec3, dvec3};

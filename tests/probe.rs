@@ -1,5 +1,5 @@
-//! `gnomon probe`: intervals against closed forms that ask the sun's position second by second, against the masks of ray
-//! casting, and on odd days; then as users drive it.
+//! `gnomon probe`: intervals against closed forms that compute the sun's position second by second, against masks of
+//! ray casting, and on unusual days; then as users run it.
 
 mod asked;
 mod sky;

@@ -1,5 +1,4 @@
-//! `docs/command.md` and `docs/site-file.md` say what the definitions say that the command line and the site file are
-//! read by.
+//! `docs/command.md` and `docs/site-file.md` agree with the definitions of the command line and of the site file.
 
 #[path = "../tools/write-references/main.rs"]
 mod write_references;
@@ -51,7 +50,7 @@ fn with(key: &SiteKey, line: &str) -> String {
     if is_list { format!("[[{}]]\n{line}\n", key.table) } else { format!("[{}]\n{line}\n", key.table) }
 }
 
-/// Values that a key of this type takes, and some that it does not.
+/// Values that a key of this type accepts, and some that it does not.
 fn samples(value: ValueType) -> (Vec<String>, Vec<String>) {
     let (good, bad): (&[&str], &[&str]) = match value {
         ValueType::Text | ValueType::Word(_) => (&["\"x\""], &["1", "true", "[]"]),

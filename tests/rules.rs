@@ -1,4 +1,4 @@
-//! Rules: how they are read, their days and windows, and their verdicts on either side of each threshold.
+//! Rules: reading them, their days and windows, and their verdicts on either side of each threshold.
 
 mod areas;
 mod built_in;

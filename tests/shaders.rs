@@ -1,4 +1,4 @@
-//! Every shader is valid, and its structs lie in memory as Rust's do. Needs no GPU.
+//! Every shader is valid, and its structs have the same memory layout as those in Rust. Needs no GPU.
 
 use gnomon::gpu::layout::{self, StructLayout};
 use gnomon::gpu::shaders;
@@ -6,7 +6,7 @@ use std::path::Path;
 use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
 use wgpu::naga::{Module, TypeInner, front::wgsl};
 
-/// A shader's module, or what is wrong with it, with the line it is in.
+/// A shader's module, or its error with the line.
 fn validated(name: &str, source: &str) -> Result<Module, String> {
     let module = wgsl::parse_str(source).map_err(|error| error.emit_to_string_with_path(source, name))?;
     Validator::new(ValidationFlags::all(), Capabilities::default())

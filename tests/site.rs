@@ -1,4 +1,4 @@
-//! Site files and options → the checked request: what is meant, and what every mistake is told.
+//! From site files and options to the checked request: what they mean, and the message for every mistake.
 
 use crate::shared::said;
 use glam::DVec3;
@@ -278,7 +278,7 @@ fn the_default_camera_sees_the_models() {
     }
 }
 
-/// What is not changed stays as a person wrote it; what is changed reads as it was set.
+/// Unchanged parts stay as a person wrote them; changed ones read as they were set.
 #[test]
 fn rewritten_file_keeps_its_comments() {
     let text = "# the client's site\n\n[place] # surveyed\nlatitude=48.2 # of the gate\nlongitude = 16.37\nelevation = 35\n\n\
@@ -312,7 +312,7 @@ fn rewritten_file_keeps_its_comments() {
     assert_eq!(SiteFile::parse("site.toml", &written).unwrap(), after, "{written}");
 }
 
-/// What a reader has to say of a model comes to whoever asks the site, by the model's name; and to a study's listener.
+/// A reader's notes on a model are available from the site, with the model's name, and are sent to a study's listener.
 #[test]
 fn notes_of_models_are_told() {
     let noted = |path: &Path, options: &ReadOptions| {
@@ -338,7 +338,8 @@ fn notes_of_models_are_told() {
     assert!(load(SITE, &asked).unwrap().notes.is_empty());
 }
 
-/// What was read serves as long as the same files stand in the same places, whatever else is asked of them.
+/// Models that were read are reused as long as the same files are placed in the same way, whatever else the request
+/// changes.
 #[test]
 fn models_are_read_once_as_long_as_they_stay() {
     let folder = folder(SITE);

@@ -1,4 +1,4 @@
-//! The sample models are what their maker draws, and what their sites promise.
+//! The models of the sample sites equal what their generator writes, and have what their sites promise.
 
 #[path = "../tools/make-sites/main.rs"]
 mod make;

@@ -1,5 +1,5 @@
-//! Registered soft shadow textures on flat patches: all ways of filling against rays and each other, cell by cell; against
-//! closed forms; and hours on patches as a study asks for them.
+//! Registered soft shadow textures on flat patches: all ways of filling them against rays and against each other, cell
+//! by cell; against closed forms; and the hours on patches of a study.
 
 mod closed_forms;
 mod hours;
@@ -111,7 +111,7 @@ impl Scene {
         self.patches.texels[texels.clone()].iter().map(point).zip(sums[texels].iter().copied())
     }
 
-    /// The same judged so many texels aside.
+    /// The same, judged at an offset in texels.
     fn moved(&self, [right, down]: [f64; 2]) -> Scene {
         let mut patches = (*self.patches).clone();
         let cell = patches.cell;

@@ -1,4 +1,4 @@
-//! Sums of masks are exact integers, on both machines, and shadow, sun and night fill the window.
+//! Sums of masks are exact integers, on both machines; shadow, sun and night add up to the window.
 
 use crate::shared::drawing::gpu;
 use crate::site::{SITE, load};
@@ -14,7 +14,7 @@ use proptest::prelude::*;
 use std::ops::ControlFlow;
 use wgpu::{Texture, TextureFormat, TextureUsages};
 
-/// Every mask with how many seconds it stands for.
+/// Every mask with its weight in seconds.
 type Weighted = Vec<(Mask, u32)>;
 
 fn weighted() -> impl Strategy<Value = Weighted> {
@@ -148,7 +148,7 @@ fn bits_sum_as_their_masks_do() {
     assert_eq!(sums[1].iter().collect::<Vec<_>>(), plain(&drawn));
 }
 
-/// Paris in September, from the afternoon into the night, as the tower's site asks.
+/// Paris in September, from the afternoon into the night, at the tower's site.
 fn asked(engine: Engine, receivers: Receivers) -> Overrides {
     Overrides {
         engine: Some(engine),

@@ -1,4 +1,5 @@
-//! The sun against outside truth: NREL's paper, pvlib's SPA, the US Naval Observatory; then clocks and windows.
+//! The sun against independent sources: NREL's paper, pvlib's SPA, the US Naval Observatory; then local time and
+//! windows.
 
 use chrono::{DateTime, NaiveDate, NaiveTime, Timelike, Utc};
 use gnomon::sun::{

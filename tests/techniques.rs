@@ -1,4 +1,4 @@
-//! The techniques beside the stencil, each against ray casting or a closed form.
+//! The techniques other than the stencil, each against ray casting or a closed form.
 
 mod disc;
 mod hybrid;

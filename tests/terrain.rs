@@ -1,4 +1,5 @@
-//! Terrain as the ground: shadows on it against closed forms, against the plane that it may be, and against rays.
+//! Terrain as the ground: shadows on it against closed forms, against the plane where the terrain is flat, and against
+//! rays.
 
 mod asked;
 mod drawn;
@@ -18,21 +19,21 @@ use gnomon::sun::{Place, SunTrack, Window};
 use gnomon::view::{Grid, Mask};
 use std::ops::ControlFlow;
 
-/// Centres of cells lie on no edge of what stands here.
+/// The centres of cells do not lie on any edge of the scene.
 const GRID: Grid = Grid { west: -60.137_1, north: 60.193_3, cell: 0.871, width: 138, height: 138 };
 
 fn vienna() -> Place {
     Place::new("Vienna", 48.2082, 16.3738, 170.0, Some("Europe/Vienna")).unwrap()
 }
 
-/// Instants alone: sums are held against masks.
+/// Only instants, since sums are compared with masks.
 fn track() -> SunTrack {
     let date = NaiveDate::from_ymd_opt(2026, 3, 21);
     let window = Window { date, from: "6:30".parse().unwrap(), to: "18:00".parse().unwrap(), step_secs: 2400 };
     SunTrack { resolution_secs: 0, ..SunTrack::window(&vienna(), &window, true).unwrap() }
 }
 
-/// A sheet over a square of such a half side, as high as is said at its corners.
+/// A sheet over a square with half the side and the heights of the corners given.
 fn terrain(half: f64, height: impl Fn(f64, f64) -> f64) -> Part {
     let corners = [[-half, -half], [half, -half], [half, half], [-half, half]];
     Part { name: "hillside".to_owned(), ..sheet(corners.map(|[x, y]| dvec3(x, y, height(x, y)))) }

@@ -1,5 +1,5 @@
-//! A plan in tiles is the plan in one go: on the processor to the bit, on a graphics adapter but for cells that lie within a
-//! 64th of a cell of an edge; and what does not go together with tiles is told.
+//! A plan in tiles equals the plan as a whole: on the processor to the bit, on a graphics adapter except for cells
+//! within a 64th of a cell of an edge. Also the messages about what cannot be combined with tiles.
 
 use crate::shared::drawing::{day, plan, scene_of};
 use crate::shared::program::{done, fails, files, gnomon, site, stderr};

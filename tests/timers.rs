@@ -1,4 +1,4 @@
-//! The clock of passes.
+//! The timers of the adapter's passes.
 
 use crate::shared::drawing::{plan, scene_of, to_sun};
 use crate::shared::scenes::cuboid;

@@ -1,4 +1,4 @@
-//! What people type: each way of writing reads as what is meant, and what can be meant otherwise is refused.
+//! Typed input: each spelling is understood as intended, and ambiguous ones are refused.
 
 use crate::shared::program::done;
 use gnomon::site::typed::{Axis, Degrees, TypedError, clock, date, degrees, number, place, resolution, step, within};

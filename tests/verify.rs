@@ -1,4 +1,4 @@
-//! `gnomon verify`: what it counts is right, and every row that decides is seen failing.
+//! `gnomon verify`: its counts are right, and every row that is held to the bound is seen to fail.
 
 use crate::shared::drawing::{plan, scene_of, to_sun};
 use crate::shared::program::{PLACE, command, done, fails, site, stderr};
@@ -354,7 +354,7 @@ fn what_cannot_be_verified_is_told() {
     }
 }
 
-/// A system whose only backend is one that it has not.
+/// A system whose only selected backend does not exist.
 #[cfg(unix)]
 #[test]
 fn without_an_adapter_there_is_no_verification() {

@@ -1,4 +1,5 @@
-//! Studies of several days: which instants, what is kept of them, and that a stopped one goes on as if it had not been.
+//! Studies of several days: which instants, what is stored of them, and that a stopped one continues as if it had not
+//! been stopped.
 
 use crate::shared::program::{PLACE, command, done, fails, files, gnomon, left, numberless, site, stderr, stopped};
 use chrono::{Datelike, NaiveDate, TimeDelta, Timelike};
@@ -182,7 +183,7 @@ fn bits_are_the_masks() {
     }
 }
 
-/// Stopped while its drawing is made, a study says whether it goes on.
+/// A study that is stopped while its drawing is made says whether it can continue.
 #[cfg(unix)]
 #[test]
 fn a_study_stopped_at_its_drawing_says_where_it_goes_on() {
@@ -327,7 +328,7 @@ fn several_days_are_the_sum_of_each() {
     }
 }
 
-/// What is written while a study goes on is of that study, whichever others were stopped in its folder.
+/// Files written during a study belong to that study, whichever others were stopped in its folder.
 #[cfg(unix)]
 #[test]
 fn what_another_stopped_study_wrote_is_not_taken_over() {

@@ -1,5 +1,4 @@
-//! What `gnomon check` says of a mesh: JSON, and a table of the parts that are not clean and of the most
-//! important places in them.
+//! The result of `gnomon check`: JSON, and a table of the parts that are not clean with their most important defects.
 
 use super::contents::{self, MostLines};
 use super::model_lines::{self, ModelLines};
@@ -14,9 +13,9 @@ use serde::Serialize;
 use serde_json::Value;
 use std::fmt::Write;
 
-/// A table is cut to about so many rows, a screen, where nobody asks for all.
+/// A table is cut to about this many rows, one screen, unless all are requested.
 const MOST_ROWS: usize = 40;
-/// The number of rows that are always there, and of those that a kind takes with its worst places.
+/// The number of rows that are always there, and of those that each kind of defect needs for its worst places.
 const FIXED_ROWS: usize = 11;
 const PLACES_A_KIND: usize = 3;
 
@@ -45,36 +44,36 @@ struct ComponentLine<'a> {
     places: Value,
 }
 
-/// What is checked: models that stand together.
+/// The checked mesh: all models of a site together.
 #[derive(Clone, Copy, Debug)]
 pub struct CheckedMesh<'a> {
-    /// All of them, welded.
+    /// The mesh of all models, welded.
     pub mesh: &'a Mesh,
-    /// What is wrong with each part.
+    /// The defects of each part.
     pub components: &'a [ComponentReport],
-    /// Whose coordinates the mesh has.
+    /// The coordinate frame of the mesh.
     pub frame: CoordinateFrame,
-    /// What should be known of how they were read.
+    /// Notes from reading the models.
     pub notes: &'a [Message],
-    /// What each file holds.
+    /// The content of each file.
     pub models: &'a [ModelContents],
-    /// What is said of the coordinates of each.
+    /// The georeference of each model.
     pub references: &'a [ModelReference],
 }
 
 /// How much a table lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TableExtent {
-    /// What matters most, on about a screen.
+    /// The most important, on about one screen.
     Screen,
-    /// All names, all that was left out, and all parts that are not clean.
+    /// Everything: all names, all that was left out, and all parts that are not clean.
     Whole,
 }
 
-/// The JSON of `gnomon check`: triangles as the files have them, vertices as welded, and where what is wrong.
+/// The JSON of `gnomon check`: triangles as in the files, vertices as welded, and the places of defects.
 ///
 /// # Errors
-/// [`ExportError::Encode`] where the encoder refuses.
+/// [`ExportError::Encode`] if the encoder fails.
 pub fn json(checked: CheckedMesh<'_>, words: &dyn Words) -> Result<String, ExportError> {
     let CheckedMesh { mesh, components, frame, notes, models, references } = checked;
     let lines = components.iter().map(|component| ComponentLine {
@@ -104,8 +103,8 @@ fn is_turned(references: &[ModelReference]) -> bool {
     references.iter().any(|model| model.up == Up::Y)
 }
 
-/// The totals, then a line a part that is not clean, then what the words mean and where the worst is; ends with a line
-/// break. How the models were read stands below the totals.
+/// The totals and how the models were read, then a line for each part that is not clean, the meaning of the words, and
+/// the worst places. Ends with a line break.
 pub fn table(checked: CheckedMesh<'_>, extent: TableExtent, words: &dyn Words) -> String {
     let CheckedMesh { mesh, components, frame, notes, models, references } = checked;
     let mut table = format!(
@@ -156,21 +155,24 @@ pub fn table(checked: CheckedMesh<'_>, extent: TableExtent, words: &dyn Words) -
     table
 }
 
-/// What the defects mean for shadows: nothing, unless welding has changed the triangles.
+/// What the defects mean for shadows: nothing, unless welding has changed triangles.
 fn shadows(mesh: &Mesh) -> String {
     let flattened: usize = mesh.components.iter().map(|component| component.flattened).sum();
     let is_coarse = mesh.components.iter().any(|component| component.coarse.is_some());
     match (flattened, is_coarse) {
-        (0, false) => "their shadows are right all the same: every triangle casts its own\n".to_owned(),
+        (0, false) => "their shadows are still right: every triangle casts its own\n".to_owned(),
         (0, true) => "every triangle casts its own shadow, as it is rounded in the file\n".to_owned(),
-        (1, _) => "every triangle casts its own shadow but one, which is flat since corners that lie on each other are joined\n".to_owned(),
+        (1, _) => {
+            "every triangle casts its own shadow except one, which became flat when coincident corners were joined\n"
+                .to_owned()
+        }
         (more, _) => format!(
-            "every triangle casts its own shadow but {more}, which are flat since corners that lie on each other are joined\n"
+            "every triangle casts its own shadow except {more}, which became flat when coincident corners were joined\n"
         ),
     }
 }
 
-/// A line a component, the worst first.
+/// One line per component, the worst first.
 fn rows(table: &mut String, dirty: &[&ComponentReport], kinds: &[&DefectKind], extent: TableExtent, words: &dyn Words) {
     let most = match extent {
         TableExtent::Screen => MOST_ROWS.saturating_sub(FIXED_ROWS + kinds.len() * (1 + PLACES_A_KIND)),
@@ -197,14 +199,14 @@ fn rows(table: &mut String, dirty: &[&ComponentReport], kinds: &[&DefectKind], e
     }
 }
 
-/// The metres of defective edges, by which the worst part comes first.
+/// The total length of defective edges, metres; the table is sorted by it.
 fn faulty_m(component: &ComponentReport) -> f64 {
     let places = &component.places;
     let edges = places.crowded.iter().chain(&places.flipped).map(|edge| edge.length_m);
     places.open.iter().map(|open| open.length_m).chain(edges).sum()
 }
 
-/// A name without what would break the line.
+/// A name without characters that would break the line.
 fn plain(name: &str) -> String {
     name.replace(char::is_control, " ")
 }

@@ -1,15 +1,15 @@
-//! A checksum of a file's bytes, by which a study checks what it takes over from a stopped one.
+//! A checksum of a file's bytes. A study uses it to verify what it takes over from a stopped one.
 //!
-//! It is SipHash-1-3 in 64 bits. A CRC of 32 bits would detect flipped bits, but would accept one in four thousand
-//! million of another study's files, and there are many masks. A hash that withstands an attack would be slower, and
-//! nobody would gain by an attack.
+//! It is SipHash-1-3 with 64 bits. A CRC of 32 bits would detect flipped bits, but would accept one wrong file in four
+//! thousand million, and there are many masks. A cryptographic hash would be slower, and nobody gains by an attack
+//! here.
 
 use siphasher::sip::SipHasher13;
 use std::fs;
 use std::hash::Hasher;
 use std::path::Path;
 
-/// The checksum of what was added so far, in whatever pieces.
+/// The checksum of all bytes added so far; how they are divided does not matter.
 #[derive(Clone, Default)]
 pub struct Checksum(SipHasher13);
 

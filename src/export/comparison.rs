@@ -1,4 +1,4 @@
-//! What a change does to the sun, in numbers: `compare.json`, and the table of `gnomon compare`.
+//! What a change does to sunlight, in numbers: `compare.json`, and the table of `gnomon compare`.
 
 use super::ExportError;
 use super::figure::{ChangeBands, duration};
@@ -8,7 +8,7 @@ use crate::sun::{Place, SunTrack};
 use serde::Serialize;
 use std::fmt::Write;
 
-/// The greatest number of rows with the sun before and after.
+/// The greatest number of rows that compare the sun before and after.
 const MOST_ROWS: u32 = 16;
 
 #[derive(Serialize)]
@@ -50,13 +50,14 @@ fn hours(secs: u32) -> f64 {
     f64::from(secs) / 3600.0
 }
 
-/// The hours at which the drawing's bands begin, in seconds, starting with 0.
+/// The lower bounds of the drawing's bands, in seconds, starting with 0.
 fn thresholds(comparison: &Comparison, track: &SunTrack) -> Vec<u32> {
     let bands = ChangeBands::of(comparison, track.step_secs);
     (0..bands.count.max(1)).map(|band| band * bands.band_secs).collect()
 }
 
-/// Whole hours of sun up to the daylight, or multiples that leave few rows; seconds.
+/// The hours of sun that get a row, in seconds: whole hours up to the daylight, or multiples if those were too many
+/// rows.
 fn sun_rows(comparison: &Comparison) -> Vec<u32> {
     let day_secs = comparison.after().day_secs;
     let each = day_secs.div_ceil(MOST_ROWS * 3600).max(1) * 3600;
@@ -74,11 +75,11 @@ fn change(comparison: &Comparison, change: Change, thresholds: &[u32]) -> Change
     }
 }
 
-/// `compare.json`: the areas, then what `profile.json` says of the study. `names` are those of the states before and
+/// `compare.json`: the areas, then what `profile.json` says about the study. `names` are those of the states before and
 /// after.
 ///
 /// # Errors
-/// [`ExportError::Encode`] where the encoder refuses.
+/// [`ExportError::Encode`] if the encoder fails.
 pub fn json(
     comparison: &Comparison,
     names: &[String; 2],
@@ -104,7 +105,7 @@ pub fn json(
     })
 }
 
-/// The rows for people: a label and two values each. In the rows of column heads the label is empty.
+/// The rows of the table: a label and two values each. Rows of column headings have an empty label.
 pub fn rows(comparison: &Comparison, track: &SunTrack) -> Vec<[String; 3]> {
     let mut rows = Vec::new();
     let mut row = |what: &str, [first, second]: [String; 2]| rows.push([what.to_owned(), first, second]);

@@ -1,5 +1,4 @@
-//! What `gnomon check` says of model files beside their mesh: the format, which components and groups they have, and
-//! what was left out.
+//! What `gnomon check` says about model files besides the mesh: format, components and groups, and what was left out.
 
 use crate::formats::LeftOut;
 use crate::message::{Field, Words, message};
@@ -8,13 +7,13 @@ use serde::Serialize;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
-/// Groups and kinds of things left out that a table has a line for, where not all are asked.
+/// The most groups and kinds of left-out things that a table lists, unless all are requested.
 const MOST: usize = 12;
 
-/// How many groups and kinds of things left out a table lists.
+/// How many groups and kinds of left-out things a table lists.
 #[derive(Clone, Copy)]
 pub(super) enum MostLines {
-    /// A few, and the field that has all.
+    /// A few, with a hint at the field that has all.
     OrSee(Field),
     /// All.
     All,
@@ -28,7 +27,7 @@ impl MostLines {
         }
     }
 
-    /// That there is more than is shown.
+    /// The line that says how many more there are.
     fn more(self, count: usize, words: &dyn Words) -> String {
         match (self, count.checked_sub(self.count())) {
             (MostLines::OrSee(field), Some(more @ 1..)) => {
@@ -39,7 +38,7 @@ impl MostLines {
     }
 }
 
-/// What a file holds.
+/// The content of a file.
 #[derive(Serialize)]
 pub(super) struct ContentsReport<'a> {
     file: &'a str,
@@ -76,7 +75,7 @@ impl<'a> ContentsReport<'a> {
     }
 }
 
-/// Lines on each model; they end with a line break.
+/// Lines about each model; they end with a line break.
 pub(super) fn table(models: &[ModelContents], most: MostLines, words: &dyn Words) -> String {
     let mut table = String::new();
     // Writing to a String cannot fail.
@@ -104,7 +103,7 @@ pub(super) fn table(models: &[ModelContents], most: MostLines, words: &dyn Words
     table
 }
 
-/// A name without what would break the line.
+/// A name without characters that would break the line.
 fn plain(name: &str) -> String {
     name.replace(char::is_control, " ")
 }

@@ -4,10 +4,10 @@ use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plai
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Why an answer could not be written to a file.
+/// The reason why a result could not be written to a file.
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
-    /// The file system refused.
+    /// The file system failed.
     Write {
         /// The file that was to be written.
         path: PathBuf,
@@ -16,7 +16,7 @@ pub enum ExportError {
         /// The system's message.
         source: std::io::Error,
     },
-    /// What a stopped study left cannot be read.
+    /// A file left by a stopped study cannot be read.
     Read {
         /// The file.
         path: PathBuf,
@@ -29,10 +29,10 @@ pub enum ExportError {
         path: PathBuf,
         /// The size of the file, bytes.
         size: u64,
-        /// The room on the disk, bytes.
+        /// The free space on the disk, bytes.
         room: u64,
     },
-    /// Another study works in the folder.
+    /// Another study is working in the folder.
     Busy {
         /// The folder.
         folder: PathBuf,
@@ -44,31 +44,31 @@ pub enum ExportError {
         /// The folder.
         folder: PathBuf,
     },
-    /// A frame would be taken for one of the animation's.
+    /// A file that is not ours would look like a frame of the animation.
     OtherFrame {
         /// The file.
         path: PathBuf,
-        /// The number of frames.
+        /// The number of frames of the animation.
         count: usize,
     },
-    /// An output is one of the files that were read.
+    /// An output would overwrite an input.
     IsInput {
         /// The file that was to be written.
         path: PathBuf,
-        /// The same file, as the site names it.
+        /// The same file, as the site file names it.
         input: PathBuf,
     },
-    /// The path is not that of a file: it ends in no name, or a folder or a device has that path.
+    /// The path cannot be a file: it has no name, or a folder or a device is there.
     NoFileName {
         /// The path as given.
         path: PathBuf,
     },
-    /// The model with the hours on its surfaces is larger than a GLB can be.
+    /// The model with the hours on its surfaces is too large for a GLB.
     LargeGlb {
         /// The size that it would have, bytes.
         size: u64,
     },
-    /// The answer does not fit the format.
+    /// The result cannot be encoded in the format.
     Encode {
         /// What was being made.
         what: &'static str,
@@ -100,11 +100,11 @@ impl Worded for ExportError {
             },
             ExportError::Read { path, source } => message![
                 format!("cannot read {}, which a stopped study left: {source}", path.display());
-                "remove it, and the study starts over"
+                "remove it; the study then starts over"
             ],
             ExportError::NoRoom { path, size, room } => no_room(path, *size, *room),
             ExportError::Busy { folder, who } => message![
-                format!("{}: another study works there, {who}", folder.display());
+                format!("{}: another study is working there, {who}", folder.display());
                 "wait until it is done, or choose another folder"
             ],
             ExportError::Lost { folder } => message![
@@ -113,12 +113,12 @@ impl Worded for ExportError {
                      written",
                     folder.display()
                 );
-                "ask again"
+                "run it again"
             ],
             ExportError::OtherFrame { path, count } => message![
                 format!(
-                    "{} would stay behind the {count} frames of this animation, and is not known to be of one that was \
-                     finished there",
+                    "{} would look like a frame after the {count} of this animation, and is not known to belong to an \
+                     animation that was finished there",
                     path.display()
                 );
                 "remove it and the frames after it, or choose another folder"
@@ -137,10 +137,10 @@ impl Worded for ExportError {
             ],
             ExportError::LargeGlb { size } => message![
                 format!(
-                    "cannot write the surfaces: the file would be {:.1} GiB, and GLB ends at 4",
+                    "cannot write the surfaces: the file would be {:.1} GiB, and a GLB holds at most 4",
                     *size as f64 / f64::from(1 << 30)
                 );
-                "take a larger ",
+                "choose a larger ",
                 Field::PatchCell
             ],
             ExportError::Encode { what, why } => format!("cannot write the {what}: {why}").into(),
@@ -158,7 +158,7 @@ impl ExportError {
         matches!(self, ExportError::IsInput { .. })
     }
 
-    /// An encoder's refusal, in its own words.
+    /// An encoder's error, in its own words.
     pub(crate) fn encode(what: &'static str, why: impl ToString) -> Self {
         ExportError::Encode { what, why: why.to_string() }
     }
@@ -187,11 +187,11 @@ pub(super) fn check_size(what: &'static str, have: usize, width: u32, height: u3
     Err(ExportError::Size { what, have, width, height })
 }
 
-/// The message for a file for which a disk has no room.
+/// The message for a file that does not fit on its disk.
 fn no_room(path: &Path, size: u64, room: u64) -> Message {
     message![
         format!("{} takes {}, and its disk has room for {}", path.display(), bytes(size), bytes(room));
-        "take larger cells",
+        "choose larger cells",
         aside(Field::Cell),
         ", ",
         Piece::Where(Field::Size, pieces!["fewer", aside(Field::Size), ", "]),
@@ -202,7 +202,7 @@ fn no_room(path: &Path, size: u64, room: u64) -> Message {
     ]
 }
 
-/// What can be done if the file system refuses.
+/// The hint for an error of the file system.
 fn way_out(kind: io::ErrorKind) -> Vec<Piece> {
     let way_out = match kind {
         io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => "choose a folder you may write to",
@@ -213,7 +213,7 @@ fn way_out(kind: io::ErrorKind) -> Vec<Piece> {
         | io::ErrorKind::NotADirectory
         | io::ErrorKind::AlreadyExists
         | io::ErrorKind::DirectoryNotEmpty => {
-            "a folder stands where a file should be, or the other way round; choose another name"
+            "there is a folder instead of a file, or a file instead of a folder; choose another name"
         }
         io::ErrorKind::InvalidFilename => "choose a shorter or simpler name",
         _ => "choose another place",

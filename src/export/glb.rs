@@ -1,4 +1,4 @@
-//! A binary glTF 2.0 file, put together from lists and the data that they point into.
+//! A binary glTF 2.0 file, assembled from lists and the data that they point to.
 
 use super::ExportError;
 use glam::Vec3;
@@ -6,7 +6,7 @@ use gltf::binary::{Glb, Header};
 use serde_json::{Value, json};
 use std::borrow::Cow;
 
-/// Numbers of the format (glTF 2.0, section 5).
+/// Constants of the format (glTF 2.0, section 5).
 pub(super) const FLOAT: u32 = 5126;
 const UNSIGNED_INT: u32 = 5125;
 pub(super) const ARRAY_BUFFER: u32 = 34962;
@@ -17,7 +17,7 @@ pub(super) fn asset() -> Value {
     json!({"version": "2.0", "generator": concat!("gnomon ", env!("CARGO_PKG_VERSION"))})
 }
 
-/// The views and accessors so far, and their data.
+/// The views and accessors so far, with their data.
 #[derive(Default)]
 pub(super) struct GlbFile {
     data: Vec<u8>,
@@ -34,7 +34,7 @@ impl GlbFile {
         if let Some(target) = target {
             view["target"] = target.into();
         }
-        // what follows may be read as words of four bytes
+        // what follows may be read as four-byte words
         self.data.resize(self.data.len().next_multiple_of(4), 0);
         self.views.push(view);
         self.views.len() - 1
@@ -65,11 +65,10 @@ impl GlbFile {
         [position, indices]
     }
 
-    /// The file; `document` has all lists but these.
+    /// Completes the file; `document` has all other lists.
     ///
     /// # Errors
-    /// [`ExportError::LargeGlb`] where it would be 4 GiB or larger; [`ExportError::Encode`] of `what` where an encoder
-    /// refuses.
+    /// [`ExportError::LargeGlb`] if it would be 4 GiB or larger; [`ExportError::Encode`] of `what` if an encoder fails.
     pub(super) fn finish(self, what: &'static str, mut document: Value) -> Result<Vec<u8>, ExportError> {
         let refused = |why: String| ExportError::encode(what, why);
         document["accessors"] = self.accessors.into();

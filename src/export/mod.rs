@@ -1,4 +1,4 @@
-//! One answer in, one file out: drawings, rasters, solids, reports.
+//! One result in, one file out: drawings, rasters, solids, reports.
 //!
 //! Every encoder returns bytes and does not touch the disk. [`file::write`] writes them, completely or not at all.
 

@@ -1,9 +1,9 @@
-//! A model as it was read, as a binary glTF 2.0 file: in metres, y up, one node per component.
+//! Writes a model as it was read to a binary glTF 2.0 file: in metres, y up, one node per component.
 //!
-//! Corners are `f32` around one origin for all, in whole metres, which is the nodes' translation. A model near its own
-//! zero keeps that zero, and one that was read from glTF keeps its exact numbers. What glTF cannot express stands in
-//! `extras`, under `gnomon`: a component's other names and its kind, and for the scene where its zero stands on Earth,
-//! which way true north is, and what else the file says of itself. `formats::gltf::own` reads it.
+//! Corners are `f32` around one common origin in whole metres, which is the translation of the nodes. A model near its
+//! own zero keeps that zero, and one that was read from glTF keeps its exact numbers. What glTF cannot express is in
+//! `extras` under `gnomon`: for a component its other names and its kind; for the scene where its zero is on Earth,
+//! which way true north is, and what else the file says about itself. `formats::gltf::own` reads it.
 
 use super::contents::{self, ContentsReport, MostLines};
 use super::glb::{GlbFile, asset};
@@ -26,7 +26,7 @@ const NEAR_M: f64 = 1000.0;
 /// The content of the file.
 ///
 /// # Errors
-/// [`ExportError::Encode`] where it would be 4 GiB or larger: before memory is taken.
+/// [`ExportError::Encode`] if it would be 4 GiB or larger; this is found before memory is allocated.
 pub fn glb(placed: &PlacedModel) -> Result<Vec<u8>, ExportError> {
     let parts = &placed.model.parts;
     let size = parts.iter().map(|part| 12 * (part.positions.len() as u64 + part.triangles.len() as u64)).sum();
@@ -63,7 +63,7 @@ pub fn glb(placed: &PlacedModel) -> Result<Vec<u8>, ExportError> {
         "nodes": nodes,
         "meshes": meshes,
     });
-    // an empty list is none in glTF
+    // glTF forbids empty lists
     if !placed.model.see_through.is_empty() {
         document["materials"] = placed.model.see_through.iter().map(|it| translucent(&it.material)).collect();
     }
@@ -84,7 +84,7 @@ fn materials(model: &Model) -> Vec<Option<usize>> {
     of_part
 }
 
-/// A see-through material; its degree of transparency is not known.
+/// A see-through material. How transparent it is, is not known.
 fn translucent(name: &str) -> Value {
     json!({
         "name": name,
@@ -109,10 +109,10 @@ fn component(model: &Model, index: usize) -> Value {
 
 fn too_large(size: u64) -> ExportError {
     let gib = size as f64 / f64::from(1 << 30);
-    ExportError::encode(WHAT, format!("it would be {gib:.1} GiB, and GLB ends at 4; export the model in parts"))
+    ExportError::encode(WHAT, format!("it would be {gib:.1} GiB, and a GLB holds at most 4; export the model in parts"))
 }
 
-/// The point around which all corners are.
+/// The point to which all corners are relative.
 fn origin(placed: &PlacedModel) -> DVec3 {
     let corners = placed.model.parts.par_iter().flat_map(|part| &part.positions);
     let none = || (DVec3::INFINITY, DVec3::NEG_INFINITY);
@@ -121,7 +121,7 @@ fn origin(placed: &PlacedModel) -> DVec3 {
         .reduce(none, |one, other| (one.0.min(other.0), one.1.max(other.1)));
     match low.abs().max(high.abs()).max_element() < NEAR_M {
         true => DVec3::ZERO,
-        // +0 makes −0 and 0 one
+        // +0 turns −0 into 0
         false => ((low + high) / 2.0).round() + 0.0,
     }
 }
@@ -134,7 +134,7 @@ fn scene(placed: &PlacedModel) -> Value {
     told["source"] = json!(placed.name);
     told["format"] = model.format.into();
     told["left_out"] = model.left_out.iter().map(left_out).collect();
-    // glTF says both itself, and many a program writes something else: that they are meant stands here
+    // glTF defines unit and axis, but many programs write other ones: this says that they are meant
     if placed.unit_is_said {
         told["unit_m"] = 1.0.into();
     }
@@ -169,10 +169,10 @@ fn anchor(anchor: &Anchor, scale_m: f64) -> Value {
     told
 }
 
-/// The JSON of `gnomon convert`: what was written where, and what is in it.
+/// The JSON of `gnomon convert`: which file was written, and its content.
 ///
 /// # Errors
-/// [`ExportError::Encode`] where the encoder refuses.
+/// [`ExportError::Encode`] if the encoder fails.
 pub fn json(placed: &PlacedModel, file: &Path) -> Result<String, ExportError> {
     report::json(&json!({
         "gnomon": env!("CARGO_PKG_VERSION"),
@@ -184,7 +184,7 @@ pub fn json(placed: &PlacedModel, file: &Path) -> Result<String, ExportError> {
     }))
 }
 
-/// What was written, and what of the file was not, in lines for people.
+/// What was written, and what of the file was left out, as lines for people.
 pub(crate) fn summary(placed: &PlacedModel, words: &dyn Words) -> String {
     let (parts, triangles) = (placed.model.parts.len(), placed.model.triangles());
     let components = if parts == 1 { "component" } else { "components" };

@@ -1,4 +1,4 @@
-//! What `gnomon check` says of where each model stands: its unit, its axis, its place and its north.
+//! What `gnomon check` says about each model's position: its unit, its up axis, its place and its north.
 
 use super::contents::ContentsReport;
 use crate::formats::{Anchor, AnchorPoint};
@@ -6,17 +6,17 @@ use crate::site::{EarthPoint, ModelContents, ModelReference, anchor_text, metres
 use serde::Serialize;
 use std::fmt::Write;
 
-/// For one model an object, for several a list.
+/// An object for one model, a list for several.
 #[derive(Serialize)]
 #[serde(untagged)]
 pub(super) enum ModelLines<'a> {
-    /// The line of a single model.
+    /// The entry of a single model.
     One { model: Box<ModelLine<'a>> },
-    /// The lines of a site that has several.
+    /// The entries of several models.
     Several { models: Vec<ModelLine<'a>> },
 }
 
-/// The coordinates of a model, for `check`.
+/// Unit, axis, position and north of a model, for `check`.
 #[derive(Serialize)]
 pub(super) struct ModelLine<'a> {
     name: &'a str,
@@ -43,7 +43,7 @@ struct PlaceLine {
     elevation: Option<f64>,
 }
 
-/// Where its file says that it stands, where it stands elsewhere.
+/// Where the file says that the model stands, if it stands elsewhere.
 #[derive(Serialize)]
 struct FilePlaceLine<'a> {
     said_by: &'a str,
@@ -69,7 +69,7 @@ struct AnchorLine<'a> {
     north_deg: Option<f64>,
 }
 
-/// A point of a map or of the Earth, or neither if only a north is given.
+/// A point of a map or of the Earth, or neither if only north is given.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum AnchorNumbers<'a> {
@@ -163,7 +163,7 @@ pub(super) fn table(models: &[ModelReference]) -> String {
     table
 }
 
-/// Where a model stands, and beside it what its file says otherwise.
+/// Where a model stands, and what its file says if that differs.
 fn stands(model: &ModelReference) -> String {
     let Some(point) = &model.stands else { return ", no place on Earth".to_owned() };
     let mut said = format!("\n  stands at {}, by {}", numbers(point), plain(&model.stands_by));
@@ -182,7 +182,7 @@ fn stands(model: &ModelReference) -> String {
     said
 }
 
-/// Where its file says that a model stands, and by what, where it stands elsewhere.
+/// Where its file says that a model stands and by what, if it stands elsewhere.
 fn elsewhere(model: &ModelReference) -> Option<(EarthPoint, &str)> {
     let (stands, said) = model.stands.zip(model.said)?;
     let said_by = model.said_by.as_deref()?;
@@ -195,12 +195,12 @@ fn numbers(point: &EarthPoint) -> String {
     format!("{:.5}, {:.5}{height}", point.at.latitude_deg, point.at.longitude_deg)
 }
 
-/// A number with six digits that count, without zeros at its end: an inch is 0.0254 m, whatever its last bits are.
+/// A number with six significant digits, without trailing zeros: an inch is 0.0254 m, whatever its last bits are.
 fn six_digits(number: f64) -> f64 {
     format!("{number:.5e}").parse().unwrap_or(number)
 }
 
-/// A number to its hundredth; adding 0 turns −0 into 0.
+/// A number rounded to hundredths; adding 0 turns −0 into 0.
 fn hundredths(number: f64) -> f64 {
     (number * 100.0).round() / 100.0 + 0.0
 }

@@ -1,4 +1,4 @@
-//! Names as they stand in lines of text and of CSV.
+//! Names as they appear in text output and in CSV.
 
 /// A field of a CSV line.
 pub(super) fn field(text: &str) -> String {

@@ -1,4 +1,4 @@
-//! The kinds of defects in a mesh, and their places: in words that tell whoever drew the model what to do, and as JSON.
+//! The kinds of defects in a mesh, and their places: in words that help to mend the model, and as JSON.
 
 use crate::mesh::report::{ComponentReport, EdgePlace, FacePlace, OpenKind, OpenPlace, Places};
 use crate::site::CoordinateFrame;
@@ -7,13 +7,13 @@ use serde_json::{Map, Value, json};
 
 /// One kind of defect.
 pub(super) struct DefectKind {
-    /// Its word.
+    /// Its name.
     pub(super) head: &'static str,
     /// The number of these defects in a component.
     pub(super) count: fn(&ComponentReport) -> usize,
     /// What it means.
     pub(super) meaning: &'static str,
-    /// The longest places, at most that many: metres, and words.
+    /// The longest places, at most as many as given: length in metres, and description.
     pub(super) places: fn(&Places, usize) -> Vec<(f64, String)>,
 }
 
@@ -47,7 +47,7 @@ pub(super) const KINDS: [DefectKind; 6] = [
     DefectKind {
         head: "flipped",
         count: |part| part.flipped_edges,
-        meaning: "edges whose two faces look to different sides: one is wound wrongly",
+        meaning: "edges whose two faces face opposite sides: one is wound wrongly",
         places: |places, most| {
             places.flipped.iter().take(most).map(|edge| (edge.length_m, line("edge", edge))).collect()
         },
@@ -61,12 +61,12 @@ pub(super) const KINDS: [DefectKind; 6] = [
     DefectKind {
         head: "duplicate",
         count: |part| part.duplicate_triangles,
-        meaning: "triangles that lie on another one",
+        meaning: "triangles that coincide with another one",
         places: |places, most| places.duplicate.iter().take(most).map(triangle).collect(),
     },
 ];
 
-/// The coordinates of places; `is_turned` if the file has y up.
+/// The coordinate frame of places, in words; `is_turned` if the file has y up.
 pub(super) fn frame(frame: CoordinateFrame, is_turned: bool) -> &'static str {
     match frame {
         CoordinateFrame::Place => "metres east, north, up from the place",
@@ -85,7 +85,7 @@ fn open(place: &OpenPlace) -> String {
         OpenKind::Rim => format!("an open sheet with a rim of {edges} edges, {long} around, near {near}"),
         OpenKind::Seam => {
             let long = length(length_m / 2.0);
-            format!("a seam of {edges} edges that lie on each other unjoined, {long} long, near {near}")
+            format!("a seam of {edges} edges that coincide but are not joined, {long} long, near {near}")
         }
         OpenKind::Run => format!("{edges} open edges in a row, {long} long, from {from} to {to}"),
         OpenKind::Net => format!("{edges} open edges that branch, {long} long, near {near}"),
@@ -105,9 +105,9 @@ fn length(metres: f64) -> String {
     if metres < 0.1 { format!("{:.1} mm", metres * 1000.0) } else { format!("{metres:.2} m") }
 }
 
-/// To the millimetre.
+/// A point to the millimetre.
 fn point(at: DVec3) -> String {
-    // + 0 makes −0 into 0
+    // + 0 turns −0 into 0
     let [x, y, z] = at.to_array().map(|metres| (metres * 1e3).round() / 1e3 + 0.0);
     format!("({x:.3}, {y:.3}, {z:.3})")
 }

@@ -1,4 +1,4 @@
-//! What `gnomon probe` says: tables, JSON, and a CSV file with one line per interval.
+//! The result of `gnomon probe`: tables, JSON, and a CSV file with one line per interval.
 
 use super::names::{field, plain};
 use super::report::{GroundReport, PlaceReport, ground_report, place_report, stamp, tz_version};
@@ -58,18 +58,18 @@ struct IntervalReport {
 
 /// The JSON of `gnomon probe`: `gnomon`, `place`, `tz_version`, the ground and `refraction` as in `profile.json`, then
 ///
-/// - `probes`, each with its `name`, its `point` in metres, its `normal` (of length 1, or null),
-///   how far it lies below the ground (`below_ground_m`, null where it does not) and its `days`; these with
-///   `date`, `sunrise` and `sunset` (null where there is none), and `intervals`: the first second in sunlight (`start`),
-///   the first no longer in it (`end`), the `seconds` between them, and what blocks one second before the start and at
-///   the end (`blocked_before`, `blocked_after`): the nearest component, `horizon` (the sun is down), `behind` (it is
-///   behind the probe's own plane) or `window` (what is asked begins or ends there);
-/// - of each day and each probe the `seconds` in sunlight and the longest interval's (`longest_seconds`);
-/// - `shortest_found_secs`: 1, as each second is decided, and no sun or shade between two of them is left out;
+/// - `probes`: for each probe its `name`, its `point` in metres, its `normal` (of length 1, or null), how far it lies
+///   below the ground (`below_ground_m`, null if it does not), and its `days`: each with `date`, `sunrise` and `sunset`
+///   (null if there is none), and `intervals`: the first second in sunlight (`start`), the first second after it
+///   (`end`), the `seconds` between them, and what blocks the sun one second before the start and at the end
+///   (`blocked_before`, `blocked_after`): the nearest component, `horizon` (the sun is down), `behind` (the sun is behind
+///   the probe's own plane) or `window` (the requested time begins or ends there);
+/// - for each day and each probe the `seconds` in sunlight, and those of the longest interval (`longest_seconds`);
+/// - `shortest_found_secs`: 1, since every second is decided and nothing between two seconds is missed;
 /// - `notes` as in `profile.json`.
 ///
 /// # Errors
-/// [`ExportError::Encode`] where the encoder refuses.
+/// [`ExportError::Encode`] if the encoder fails.
 pub fn json(
     sunlight: &Sunlight,
     place: &Place,
@@ -118,8 +118,8 @@ fn interval_report(sunlight: &Sunlight, interval: &Interval) -> IntervalReport {
     }
 }
 
-/// A table with one line per interval, in the order of probes and of time, after RFC 4180: lines end in CR LF, and
-/// fields that contain a comma, a quote or a line break are quoted.
+/// A table in CSV with one line per interval, ordered by probe and time, as in RFC 4180: lines end in CR LF, and fields
+/// that contain a comma, a quote or a line break are quoted.
 pub fn csv(sunlight: &Sunlight) -> String {
     let mut text = "probe,start,end,seconds,blocked_before,blocked_after\r\n".to_owned();
     for probed in &sunlight.probes {
@@ -134,11 +134,11 @@ pub fn csv(sunlight: &Sunlight) -> String {
     text
 }
 
-/// Of more probes there is one table for all.
+/// If there are more probes, there is one table for all of them.
 const MOST_TABLES: usize = 20;
 
-/// For each probe a table, of the intervals of a single day or of several days, and a summary; then the ground, and how
-/// exact it is. Ends with a line break.
+/// A table and a summary for each probe: the intervals of a single day, or a line for each of several days. Then the
+/// ground, and how exact the times are. Ends with a line break.
 pub fn table(sunlight: &Sunlight, place: &Place, ground: &Ground) -> String {
     let mut table = String::new();
     let is_long = sunlight.probes.len() > MOST_TABLES;
@@ -216,11 +216,11 @@ fn day_table(
     }
 }
 
-/// Why a day has no interval.
+/// The reason why a day has no interval.
 fn why_none(day: &SunDay, is_buried: bool) -> &'static str {
     match day.up.is_empty() {
         true if day.window.from == day.window.to && day.window.day.polar != Some(Polar::Night) => {
-            "nothing is asked of this day"
+            "no time of this day was requested"
         }
         true => "it stays below the horizon",
         false if is_buried => "the point lies below the ground",
@@ -292,7 +292,7 @@ pub(super) fn lies(probe: &Probe) -> String {
     }
 }
 
-/// A direction by compass and tilt, and in numbers: `south (180.0°), upright`.
+/// A direction in words and numbers: `south (180.0°), upright`.
 pub(super) fn facing(normal: DVec3) -> String {
     const WINDS: [&str; 8] = ["north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west"];
     let tilt = normal.z.clamp(-1.0, 1.0).asin().to_degrees();

@@ -1,4 +1,4 @@
-//! The bare numbers: the hours of shadow as a GeoTIFF, a mask as an 8-bit gray PNG.
+//! Rasters of numbers: the hours of shadow as a GeoTIFF, a mask as an 8-bit gray PNG.
 
 use super::file::{self, TemporaryFile};
 use super::{ExportError, check_size};
@@ -17,12 +17,11 @@ use tiff::encoder::{DirectoryEncoder, TiffEncoder, TiffKind, TiffKindBig, TiffKi
 use tiff::tags::{CompressionMethod, PhotometricInterpretation, SampleFormat, Tag};
 
 /// `shadow-hours.tif`: one band of `f32`, hours of shadow per cell, north up, nodata NaN.
-///
 /// The map frame is an azimuthal equidistant projection around the place on WGS 84, so that its metres east and north
-/// are the world frame's. Deflated without a predictor: hours repeat so much that they shrink well without.
+/// are those of the world frame. Deflated without a predictor: hours repeat so often that they compress well.
 ///
 /// # Errors
-/// [`ExportError::Size`] where the sums do not fill the grid; [`ExportError::Encode`] where the raster is too large.
+/// [`ExportError::Size`] if the sums do not fill the grid; [`ExportError::Encode`] if the raster is too large.
 pub fn geotiff<S: ShadedCells>(profile: &Profile<S>, place: &Place) -> Result<Vec<u8>, ExportError> {
     check_profile(profile)?;
     let mut bytes = Cursor::new(Vec::new());
@@ -30,10 +29,10 @@ pub fn geotiff<S: ShadedCells>(profile: &Profile<S>, place: &Place) -> Result<Ve
     Ok(bytes.into_inner())
 }
 
-/// The same, written into a temporary file strip by strip, so that it is never in memory as a whole.
+/// As [`geotiff`], but written to a temporary file strip by strip, so that it is never completely in memory.
 ///
 /// # Errors
-/// As [`geotiff`]; [`ExportError::Write`] where the file system refuses.
+/// As [`geotiff`]; [`ExportError::Write`] if the file system fails.
 pub(crate) fn geotiff_file<S: ShadedCells>(
     profile: &Profile<S>,
     place: &Place,
@@ -68,8 +67,8 @@ fn write_geotiff<S: ShadedCells>(
     encode(grid, place, "hours of shadow", hours, to)
 }
 
-/// `shadow-hours-difference.tif`: as [`geotiff`], the hours of shadow after minus those before; NaN where they are not
-/// compared.
+/// `shadow-hours-difference.tif`: as [`geotiff`], but the hours of shadow after minus those before; NaN where cells are
+/// not compared.
 ///
 /// # Errors
 /// As [`geotiff`].
@@ -111,7 +110,7 @@ fn encode(
     }
 }
 
-/// The crate deflates a whole image or nothing, so strips are deflated here, as many at once as there are processors.
+/// The crate can only deflate a whole image, so strips are deflated here, as many at once as there are processors.
 fn encode_as<W: Write + Seek, K: TiffKind>(
     mut tiff: TiffEncoder<W, K>,
     grid: &Grid,
@@ -166,7 +165,7 @@ fn encode_as<W: Write + Seek, K: TiffKind>(
     tags.finish()
 }
 
-/// Bytes in the machine's own order, as the file's header says.
+/// The numbers in the machine's byte order, as the file's header declares, deflated.
 fn deflate(hours: &[f32]) -> io::Result<Vec<u8>> {
     let mut zlib = ZlibEncoder::new(Vec::new(), Compression::fast());
     zlib.write_all(bytemuck::cast_slice(hours))?;
@@ -180,7 +179,8 @@ struct GeoKeys {
     ascii: String,
 }
 
-/// Azimuthal equidistant around the place; numbers as in OGC 19-008r4, annex B, and GeoTIFF 1.0, section 6.3.
+/// The keys of an azimuthal equidistant projection around the place, after OGC 19-008r4, annex B, and GeoTIFF 1.0,
+/// section 6.3.
 fn geo_keys(place: &Place) -> GeoKeys {
     const DOUBLES: u16 = 34736;
     const ASCII: u16 = 34737;
@@ -216,7 +216,7 @@ fn geo_keys(place: &Place) -> GeoKeys {
 /// The bare mask: 8-bit gray, row 0 north, 255 where the whole sun is seen.
 ///
 /// # Errors
-/// [`ExportError::Size`] where the shares do not fill the mask; [`ExportError::Encode`] where the encoder refuses.
+/// [`ExportError::Size`] if the shares do not fill the mask; [`ExportError::Encode`] if the encoder fails.
 pub fn mask_png(mask: &Mask) -> Result<Vec<u8>, ExportError> {
     check_size("mask", mask.share.len(), mask.width, mask.height)?;
     png_bytes((mask.width, mask.height), (png::ColorType::Grayscale, png::BitDepth::Eight), None, &mask.share)
@@ -233,14 +233,14 @@ pub(super) fn png_bytes(
     png_rows(size, kind, dots_per_metre, |write| write(pixels).map_err(Into::into))
 }
 
-/// The same, written piece by piece.
+/// As [`png_bytes`], but written piece by piece.
 pub(super) fn png_rows(
     (width, height): (u32, u32),
     (color, depth): (png::ColorType, png::BitDepth),
     dots_per_metre: Option<u32>,
     pieces: impl FnOnce(&mut (dyn FnMut(&[u8]) -> io::Result<()> + Send)) -> Result<(), png::EncodingError>,
 ) -> Result<Vec<u8>, png::EncodingError> {
-    /// The bytes that are compressed before they are written.
+    /// How many bytes are compressed before they are written.
     const AT_ONCE: usize = 1 << 16;
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
@@ -248,7 +248,7 @@ pub(super) fn png_rows(
     encoder.set_depth(depth);
     encoder.set_compression(png::Compression::Fast);
     if color == png::ColorType::Rgb {
-        // on drawings no larger than trying all filters on each row, and in a fraction of the time
+        // for drawings the files are as small as if all filters were tried on each row, in a fraction of the time
         encoder.set_filter(png::Filter::Paeth);
     }
     encoder.set_pixel_dims(dots_per_metre.map(|dots| png::PixelDimensions {

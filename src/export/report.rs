@@ -1,7 +1,6 @@
-//! The answer in words and numbers: `profile.json`, what `gnomon shadow` and `gnomon sun` say in JSON, and
-//! the table of `gnomon sun`.
-//!
-//! Keys and their order are a contract that other programs rely on; keys may be added, never changed.
+//! The result in words and numbers: `profile.json`, the JSON of `gnomon shadow` and `gnomon sun`, and the table of
+//! `gnomon sun`.
+//! Other programs rely on keys and their order: keys may be added, but never changed.
 
 use super::patches::PatchContext;
 use super::{ExportError, figure};
@@ -50,7 +49,7 @@ pub(super) struct DrawnReport<'a> {
     statistics: Option<StatisticsReport>,
 }
 
-/// The settings that drew the answer, under the command's names.
+/// The settings of the computation, named as the command's options.
 #[derive(Serialize)]
 pub(super) struct SettingsReport {
     map_size: Option<u32>,
@@ -162,29 +161,29 @@ struct DayReport {
     sunset: Option<String>,
 }
 
-/// The context of a report: what it says besides the instants.
+/// What a report says besides the instants.
 #[derive(Clone, Copy, Debug)]
 pub struct ReportContext<'a> {
     /// What was judged.
     pub receivers: Receivers,
     /// The ground plane.
     pub ground: Ground,
-    /// What drew the answer.
+    /// How the result was computed.
     pub drawn: &'a Provenance,
-    /// How long that took.
+    /// How long the computation took.
     pub timings: &'a Timings,
     /// The statistics of counting, if they were requested.
     pub statistics: Option<&'a Statistics>,
-    /// What the user should know of how the models were read.
+    /// Notes from reading the models.
     pub notes: &'a [Message],
     /// The face's words.
     pub words: &'a dyn Words,
 }
 
-/// `profile.json`, whose keys are a contract, with how refraction and ΔT were found beside them.
+/// `profile.json`, including the sources of refraction and ΔT.
 ///
 /// # Errors
-/// [`ExportError::Encode`] where the encoder refuses.
+/// [`ExportError::Encode`] if the encoder fails.
 pub fn profile_json<S>(
     profile: &Profile<S>,
     place: &Place,
@@ -194,11 +193,11 @@ pub fn profile_json<S>(
     shadow_json(&View::Plan(profile.grid), place, track, told)
 }
 
-/// The JSON of `gnomon shadow`: as [`profile_json`]. Where a plan has region and cell, a camera stands as the site file
-/// writes it.
+/// The JSON of `gnomon shadow`: as [`profile_json`]; instead of a plan's region and cell, a camera view has the camera
+/// as in a site file.
 ///
 /// # Errors
-/// [`ExportError::Encode`] where the encoder refuses.
+/// [`ExportError::Encode`] if the encoder fails.
 pub(crate) fn shadow_json(
     view: &View,
     place: &Place,
@@ -208,11 +207,10 @@ pub(crate) fn shadow_json(
     drawn_json(view_report(view), place, track, told)
 }
 
-/// `profile.json` of patches: as [`profile_json`]. Where a plan has region and cell, it has cell, texels and
-/// components.
+/// `profile.json` of patches: as [`profile_json`], but with cell, texels and components instead of region and cell.
 ///
 /// # Errors
-/// [`ExportError::Encode`] where the encoder refuses.
+/// [`ExportError::Encode`] if the encoder fails.
 pub(crate) fn patches_json(found: &PatchContext<'_>, told: &ReportContext<'_>) -> Result<String, ExportError> {
     let component = |(component, patches, exposure): (_, &[_], Exposure)| {
         let [share_1h, share_2h, share_3h, share_4h] = exposure.shares;
@@ -251,7 +249,7 @@ fn drawn_json(
     json(&drawn_report(view, place, track, told))
 }
 
-/// The part of `profile.json` that another report contains.
+/// The part of `profile.json` that other reports contain, too.
 pub(super) fn plan_report<'a>(
     grid: &Grid,
     place: &'a Place,
@@ -366,7 +364,7 @@ fn view_report(view: &View) -> ViewReport<'static> {
     }
 }
 
-/// Notes, as they stand in a report.
+/// Notes as a report shows them.
 pub(super) fn said(notes: &[Message], words: &dyn Words) -> Vec<String> {
     notes.iter().map(|note| note.in_words(words)).collect()
 }
@@ -374,7 +372,7 @@ pub(super) fn said(notes: &[Message], words: &dyn Words) -> Vec<String> {
 /// The JSON of `gnomon sun`: place, instants, days and notes as in [`profile_json`].
 ///
 /// # Errors
-/// [`ExportError::Encode`] where the encoder refuses.
+/// [`ExportError::Encode`] if the encoder fails.
 pub fn sun_json(place: &Place, track: &SunTrack, notes: &[Message], words: &dyn Words) -> Result<String, ExportError> {
     json(&SunReport {
         place: place_report(place),
@@ -386,8 +384,7 @@ pub fn sun_json(place: &Place, track: &SunTrack, notes: &[Message], words: &dyn 
 }
 
 /// The table of `gnomon sun`: one line per instant, then one line per day; ends with a line break.
-///
-/// A day without sunrise and sunset says which kind it is: the sun stays up, or down.
+/// For a day without sunrise and sunset it says whether the sun stays up or down.
 pub fn sun_table(place: &Place, track: &SunTrack) -> String {
     let mut table = String::new();
     // Writing to a String cannot fail.
@@ -463,8 +460,8 @@ fn day_report(day: &Day) -> DayReport {
     }
 }
 
-/// RFC 3339 with the place's offset, in whole seconds; also for offsets with seconds, which clocks had before there
-/// were zones.
+/// RFC 3339 with the place's offset, in whole seconds. Offsets may have seconds, too, as before time zones were
+/// introduced.
 pub(super) fn stamp(time: &DateTime<Zone>) -> String {
     let offset = time.offset().fix();
     if offset.local_minus_utc() % 60 != 0 {

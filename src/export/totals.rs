@@ -1,13 +1,13 @@
-//! How long probes lie in the sun a day, a month and a year, as CSV.
+//! How long probes are in the sun per day, month and year, as CSV.
 
 use super::names::field;
 use crate::sunlight::{Interval, ProbeIntervals, Sunlight, longest, secs};
 use chrono::Datelike;
 use std::fmt::Write;
 
-/// The totals of `gnomon probe`: for each probe a line a day, then one a month, then one a year, as far as their days are
-/// asked: `probe,unit,date,days,seconds,longest_seconds,intervals`. The unit is `day`, `month` or `year`, the date is written
-/// as far as the unit goes (2026-03-21, 2026-03, 2026), and `days` says how many of its days are in it.
+/// The totals of `gnomon probe`: for each probe a line per day, then one per month, then one per year, each over the
+/// requested days: `probe,unit,date,days,seconds,longest_seconds,intervals`. The unit is `day`, `month` or `year`; the
+/// date has the precision of the unit (2026-03-21, 2026-03, 2026); `days` is the number of days in the sum.
 pub fn totals(sunlight: &Sunlight) -> String {
     let mut text = "probe,unit,date,days,seconds,longest_seconds,intervals\r\n".to_owned();
     for probed in &sunlight.probes {

@@ -1,4 +1,4 @@
-//! What `gnomon verify` says: JSON, and a table with a legend.
+//! The result of `gnomon verify`: JSON, and a table with a legend.
 
 use super::{ExportError, report};
 use crate::choice::{Engine, Finder, Method, Promise, Truth};
@@ -89,7 +89,7 @@ struct RowReport<'a> {
 /// - `notes` as in `profile.json`: those given.
 ///
 /// # Errors
-/// [`ExportError::Encode`] where the encoder refuses.
+/// [`ExportError::Encode`] if the encoder fails.
 pub fn json(verification: &Verification, site: &Site, notes: &[Message]) -> Result<String, ExportError> {
     let Site { place, track, receivers, ground, .. } = site;
     let Verification { grid, instants, clean, edge_share, sun_samples, disc_secs, surfaces, rows } = verification;
@@ -149,7 +149,7 @@ fn row_report(row: &Row, holds: Option<bool>) -> RowReport<'_> {
     }
 }
 
-/// The finder that was used, and the techniques that used another one.
+/// The silhouette finder that was used, and which techniques used another one.
 fn silhouettes(rows: &[Row]) -> String {
     let mut found = rows.iter().filter_map(|row| Some((row.drawn.finder?, row.drawn.technique)));
     let Some((first, _)) = found.next() else { return "none".to_owned() };
@@ -158,7 +158,7 @@ fn silhouettes(rows: &[Row]) -> String {
     format!("{first}{}", others.concat())
 }
 
-/// The size of maps, the filter of the shadow map, and the width of smoothies if it was set by hand.
+/// The size of shadow maps, the filter of the shadow map, and the width of smoothies if it was set by hand.
 fn maps(rows: &[Row]) -> Option<String> {
     let size = rows.iter().find_map(|row| row.drawn.settings.map_size)?;
     let filtered = |row: &Row| {
@@ -186,7 +186,7 @@ pub fn table(verification: &Verification, site: &Site) -> String {
     table
 }
 
-/// Where, when and with what, and an empty line.
+/// Writes place, time and machine, and an empty line.
 fn head(table: &mut String, verification: &Verification, site: &Site) {
     let Site { place, track, receivers, ground, .. } = site;
     let Verification { grid, instants, .. } = verification;
@@ -301,7 +301,7 @@ fn legend(table: &mut String, verification: &Verification, words: &dyn Words) {
     );
 }
 
-/// The bound that has to hold, and the reason for it.
+/// The bound that must be met, and the reason for it.
 fn bound(verification: &Verification, words: &dyn Words) -> String {
     let bound = format!(
         "holds: of edge cells at most {}% differ, and of others one in {OTHERS}; of ray casting's none",
@@ -332,12 +332,12 @@ fn on_surfaces(verification: &Verification) -> String {
     )
 }
 
-/// Whether a row is of a technique that draws on both machines, and follows the processor's row.
+/// Whether a row is that of the graphics card for a technique that also has a row for the processor.
 fn is_on_gpu_too(row: &Row) -> bool {
     row.drawn.engine == Engine::Gpu && !row.drawn.technique.row().on_cpu.is_empty()
 }
 
-/// The techniques that do not hold, in one line; `None` if all do.
+/// The techniques that do not meet the bound, in one line; `None` if all do.
 pub fn failure(verification: &Verification) -> Option<String> {
     let told = |row: &Row| {
         let most = match row.promise {

@@ -1,4 +1,4 @@
-//! The shadow volumes as a model: a binary glTF 2.0 file with one node per caster, which any model viewer opens.
+//! The shadow volumes as a model: a binary glTF 2.0 file with one node per caster, for any model viewer.
 
 use super::report::{GroundReport, PlaceReport, ground_report, place_report, stamp, tz_version};
 use super::{ExportError, report};
@@ -19,7 +19,7 @@ use std::path::Path;
 pub struct Volumes<'a> {
     /// The place on Earth.
     pub place: &'a Place,
-    /// The instant, with the direction of the sun.
+    /// The instant, with the sun's direction.
     pub instant: &'a Instant,
     /// Whether the sun's direction includes refraction.
     pub refraction: bool,
@@ -31,7 +31,7 @@ pub struct Volumes<'a> {
     pub solids: &'a [Solid],
     /// The number of casting components without a solid.
     pub left_out: usize,
-    /// What the user should know of how the models were read.
+    /// Notes from reading the models.
     pub notes: &'a [Message],
     /// The face's words.
     pub words: &'a dyn Words,
@@ -51,7 +51,7 @@ impl Volumes<'_> {
     }
 }
 
-/// Numbers of the format (glTF 2.0, section 5).
+/// Constants of the format (glTF 2.0, section 5).
 const FLOAT: u32 = 5126;
 const UNSIGNED_INT: u32 = 5125;
 const ARRAY_BUFFER: u32 = 34962;
@@ -60,9 +60,10 @@ const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 /// The file: one scene, with a node for each solid, which has the caster's name and `extras` that say the time.
 ///
 /// # Errors
-/// [`ExportError::Encode`] where there is no solid, or where the file would be 4 GiB or larger: before memory is taken.
+/// [`ExportError::Encode`] if there is no solid, or if the file would be 4 GiB or larger; this is found before memory
+/// is allocated.
 pub fn glb(volumes: &Volumes<'_>) -> Result<Vec<u8>, ExportError> {
-    // The format allows no empty list, and nobody wants an empty file.
+    // The format forbids empty lists, and an empty file would be of no use.
     if volumes.solids.is_empty() {
         return Err(refused("nothing above the ground casts a shadow; check `level` of the ground, and `casts`"));
     }
@@ -72,7 +73,9 @@ pub fn glb(volumes: &Volumes<'_>) -> Result<Vec<u8>, ExportError> {
     let total = 12 + 8 + document.len().next_multiple_of(4) as u64 + 8 + data;
     let Ok(length) = u32::try_from(total) else {
         let gib = total as f64 / f64::from(1 << 30);
-        return Err(refused(format!("it would be {gib:.1} GiB, and GLB ends at 4; let fewer parts cast with `casts`")));
+        return Err(refused(format!(
+            "it would be {gib:.1} GiB, and a GLB holds at most 4; let fewer parts cast with `casts`"
+        )));
     };
     let mut bytes = Vec::with_capacity(data as usize);
     for solid in volumes.solids {
@@ -123,7 +126,7 @@ fn document(volumes: &Volumes<'_>) -> Value {
     document
 }
 
-/// The document's lists, which grow with each solid.
+/// The lists of the document; each solid adds to them.
 #[derive(Default)]
 struct SolidLists {
     nodes: Vec<Value>,
@@ -171,7 +174,7 @@ impl SolidLists {
 
 /// East, north and up in glTF's axes: x east, y up, z south.
 pub(super) fn in_gltf(point: Vec3) -> [f32; 3] {
-    // + 0 makes −0 and 0 one
+    // + 0 turns −0 into 0
     [point.x, point.z, 0.0 - point.y].map(|metres| metres + 0.0)
 }
 
@@ -198,10 +201,10 @@ struct VolumeLine<'a> {
     closed: bool,
 }
 
-/// The JSON of `gnomon volumes`: what was written where, and for each volume whether it is closed.
+/// The JSON of `gnomon volumes`: which file was written, and for each volume whether it is closed.
 ///
 /// # Errors
-/// [`ExportError::Encode`] where the encoder refuses.
+/// [`ExportError::Encode`] if the encoder fails.
 pub fn json(volumes: &Volumes<'_>, file: &Path) -> Result<String, ExportError> {
     let line = |solid| VolumeLine {
         name: volumes.name(solid),
@@ -223,7 +226,7 @@ pub fn json(volumes: &Volumes<'_>, file: &Path) -> Result<String, ExportError> {
     })
 }
 
-/// What was written, and down to which ground: two lines, the last without its line break.
+/// What was written, and the ground at which the volumes end: two lines, the last without a line break.
 pub(crate) fn summary(volumes: &Volumes<'_>) -> String {
     let triangles: usize = volumes.solids.iter().map(|solid| solid.triangles.len()).sum();
     format!(

@@ -1,4 +1,4 @@
-//! The rules themselves, as tables: who may know whom, which words are reserved, and how long files and functions may be.
+//! The rules as tables: which module may use which, reserved words, and the greatest lengths of files and functions.
 
 /// The modules in reading order, and whom each may know. Everybody may know themselves.
 pub(super) const MAY_KNOW: &[(&str, &[&str])] = &[

@@ -1,4 +1,4 @@
-//! Where a Rust source has comments and string literals, so that neither is taken for the other.
+//! Finds comments and string literals in Rust source, so that they are not confused.
 
 use std::ops::Range;
 

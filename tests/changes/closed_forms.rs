@@ -1,4 +1,4 @@
-//! A box and a wall without end, whose shadows' moments are known to the second.
+//! A box and an infinite wall, whose shadows come and go at times that are known to the second.
 
 use crate::shared::scenes::{cuboid, joined};
 use chrono::{NaiveDate, TimeDelta};
@@ -44,7 +44,8 @@ fn truth(suns: &[DVec3], is_shaded: impl Fn(DVec3) -> bool) -> (u64, u64, bool) 
     (secs as u64, changes(&shaded) as u64, is_plain)
 }
 
-/// Every cell's seconds in shadow are those of the closed form, to a second a change. Returns how many changes there were.
+/// The seconds in shadow of every cell equal the closed form, to within a second per change. Returns the number of
+/// changes.
 fn holds(site: &Site, is_shaded: impl Fn(DVec3, DVec3) -> bool) -> u64 {
     let shaded = study::run(site, &Wants::default(), &mut |_| ControlFlow::Continue(())).unwrap().profile.shaded;
     let suns = seconds(&site.track);

@@ -1,4 +1,4 @@
-//! What is asked of times of change, and what is said of them.
+//! The options for times of change, and the messages about them.
 
 use super::{sample, secs};
 use crate::shared::program::{done, fails, gnomon, site, stderr};

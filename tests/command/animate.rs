@@ -1,4 +1,4 @@
-//! `gnomon animate`: frames that are what `gnomon shadow` draws, and a GIF of them.
+//! `gnomon animate`: the frames equal the drawings of `gnomon shadow`, and become a GIF.
 
 use crate::shared::program::{command, done, fails, names, site, stderr};
 use std::path::Path;
@@ -141,7 +141,7 @@ fn stopped_leaves_the_old_gif_and_no_half_one() {
     assert!(names.iter().all(|name| name == "day.gif" || name.starts_with("frame-")), "{names:?}");
 }
 
-/// They go, and nothing else does.
+/// They are removed, and nothing else.
 #[test]
 fn frames_of_a_longer_animation_do_not_stay_among_those_of_a_shorter_one() {
     let folder = site();
@@ -158,7 +158,7 @@ fn frames_of_a_longer_animation_do_not_stay_among_those_of_a_shorter_one() {
     let told = super::gnomon(at, &format!("{asked} 1h"));
     assert!(told.status.success(), "{}", stderr(&told));
     assert!(
-        stderr(&told).contains("frame-0003.png to frame-0004.png are of the longer animation"),
+        stderr(&told).contains("frame-0003.png to frame-0004.png belong to the older, longer animation"),
         "{}",
         stderr(&told)
     );

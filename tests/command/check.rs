@@ -1,4 +1,4 @@
-//! `gnomon check`: several files, whole lists; and what other commands say of the same models.
+//! `gnomon check`: several files, complete lists, and what other commands say about the same models.
 
 use crate::shared::program::{PLACE, STUDY, done, fails, gnomon, site, stderr};
 use serde_json::Value;
@@ -76,7 +76,7 @@ fn footprints_without_heights_are_told_once() {
     assert_eq!(told.matches("has 1 footprint").count(), 1, "{told}");
 }
 
-/// The sun is that of the studies: also where the place's elevation stands in a model's file.
+/// The sun is that of studies, also if a model's file has the place's elevation.
 #[test]
 fn sun_and_studies_have_one_elevation() {
     let folder = site();

@@ -1,4 +1,4 @@
-//! Which rules of clocks were taken, in all that is handed out; and what is said of years for which they are a guess.
+//! Every result says which time zone rules were used, and warns about years for which the rules are a guess.
 
 use crate::shared::program::{done, fails, gnomon, names, site, stderr};
 use gnomon::sun::ZoneRules;
@@ -20,7 +20,7 @@ fn extras(path: &Path) -> Value {
     json(&extras.expect("extras"))
 }
 
-/// Every command whose hours depend on a clock, with so small a plan that it is done at once.
+/// Every command whose hours depend on local time, with a plan so small that it is fast.
 const COMMANDS: [&str; 8] = [
     "sun .",
     "shadow . --at 2100-07-01T12:00 --engine cpu --size 16",

@@ -69,7 +69,7 @@ fn a_box_takes_the_sun_from_its_shadow() {
     assert_eq!(hours[cell(along(-length))], 0.0);
 }
 
-/// Names that begin and end alike are cut so that they are told apart: with other names the sheet is another one.
+/// Names with equal beginnings and ends are shortened so that they differ: with other names the sheet differs.
 #[test]
 fn long_names_are_told_apart_on_the_sheet() {
     let folder = site();

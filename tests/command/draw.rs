@@ -1,4 +1,4 @@
-//! `gnomon profile --draw`: the lines as they are written, against closed forms and against the raster.
+//! `gnomon profile --draw`: the drawn lines against closed forms and against the raster.
 
 use crate::shared::program::{done, fails, names, site};
 use serde_json::Value;
@@ -229,7 +229,7 @@ fn times_do_not_lie_on_each_other() {
     assert_eq!((page.width(), page.height()), (3508, 2480));
 }
 
-/// Where the sun does not set a window may run past midnight: it is shorter than a day, and no time comes twice.
+/// If the sun does not set, a window may run past midnight: it is shorter than a day, so that no time is repeated.
 #[test]
 fn outlines_run_past_midnight_in_summer() {
     let folder = site();

@@ -1,4 +1,4 @@
-//! The ground's height: who says it, what it is where nobody does, and where it stands.
+//! The height of the ground: where it comes from, what the default is, and where it is reported.
 
 use crate::model::{Model, U16};
 use crate::shared::program::{command, done, fails, stderr};
@@ -44,7 +44,7 @@ fn primitive(model: &mut Model, materials: &mut Vec<Value>, (_, corners, triangl
     json!({"attributes": {"POSITION": positions}, "indices": indices, "material": materials.len() - 1})
 }
 
-/// A closed box between two heights, so wide from its middle at east and north.
+/// A closed box between two heights, around a middle east and north, with a half width.
 pub(crate) fn block(
     name: &str,
     [east, north]: [f32; 2],
@@ -65,7 +65,7 @@ fn slope(name: &str, [west, east]: [f32; 2]) -> (&str, Vec<[f32; 3]>, Vec<u16>) 
     (name, corners, vec![0, 1, 2, 0, 2, 3])
 }
 
-/// A folder with models and a site for each, by the same name; `ground` stands in that of the name before it.
+/// A folder with models and a site for each, with the same name; `ground` is added to its text.
 fn sites(models: &[(&str, Vec<u8>, &str)]) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     for (name, model, ground) in models {
@@ -186,7 +186,7 @@ fn states_share_one_ground() {
     assert_eq!(ground(&report), (-0.5, "site", 0.0));
 }
 
-/// Rounding is no cellar: what reaches less than a millimetre below 0 stands on it.
+/// Rounding does not make a cellar: a model that reaches less than a millimetre below 0 stands on 0.
 #[test]
 fn models_on_zero_stand_on_their_lowest_point() {
     let tower = |low, high| model(&[block("tower", [0.0; 2], 5.0, [low, high])]);
@@ -211,8 +211,8 @@ fn models_on_zero_stand_on_their_lowest_point() {
     }
 }
 
-/// Terrain that falls below 0 is not hidden by a plane there: hours on it are those on a sheet over nothing. Where somebody
-/// asks for that plane, it is told what it hides.
+/// Terrain that falls below 0 is not hidden by a plane at 0: the hours on it are those on a sheet above nothing. If
+/// that plane is requested, a note says what it hides.
 #[test]
 fn terrain_is_judged_as_what_it_is() {
     let tower = || block("tower", [0.0; 2], 5.0, [-8.0, 30.0]);
@@ -305,7 +305,7 @@ fn a_ground_that_is_none_is_refused() {
     fails(folder.path(), "sun cellar.toml --ground 0", 2, &["--ground"]);
 }
 
-/// What lies below the ground says so, on a day and over days, in every form.
+/// A probe below the ground is reported as such, for one day and for several, in every output.
 #[test]
 fn a_probe_under_the_ground_says_so() {
     let folder = towers();

@@ -5,7 +5,7 @@ use crate::shared::program::{PLACE, STUDY, done, pixels};
 use gnomon::export::figure::component_colours;
 use gnomon::site::{Overrides, Site};
 
-/// A row of so many boxes, the first the largest; and how much of the sheet has the exact colour of each, as a legend has.
+/// A row of boxes, the first the largest; returns how much of the sheet has exactly the legend's colour of each.
 fn named(count: usize) -> Vec<usize> {
     let names: Vec<String> = (0..count).map(|number| format!("box {number}")).collect();
     let part = |(number, name)| {
@@ -23,7 +23,7 @@ fn named(count: usize) -> Vec<usize> {
     colours.iter().map(|colour| pixels(path.join("sheet.png"), |pixel| pixel == *colour)).collect()
 }
 
-/// Eight have colours that are told apart; a ninth takes no more room than "and 1 more".
+/// Eight components have distinct colours; a ninth takes no more room than "and 1 more".
 #[test]
 fn the_ninth_component_is_named() {
     let swatch = 1500;

@@ -1,4 +1,4 @@
-//! Letters that Noto Sans lacks: the system's faces draw them, and what none has is told.
+//! Letters that Noto Sans lacks: the system's fonts draw them, and a note lists those that no font has.
 
 use crate::shared::program::{command, site, stderr};
 use image::RgbImage;
@@ -30,7 +30,7 @@ pub(crate) fn face(letter: char) -> Vec<u8> {
     face
 }
 
-/// The sheet of the site under that name, in a home with these faces, and what is told.
+/// The sheet of a site with this name, in a home with these fonts, and the messages.
 fn sheet(name: &str, faces: &[Vec<u8>]) -> (RgbImage, String) {
     let folder = site();
     let path = folder.path();
@@ -78,7 +78,7 @@ fn the_systems_faces_draw_what_noto_sans_lacks() {
 /// Another one.
 const OTHER: char = '\u{A4CE}';
 
-/// Two faces of which neither has the other's letter draw both, side by side.
+/// Two fonts, neither of which has the other's letter, draw both side by side.
 #[cfg(target_os = "linux")]
 #[test]
 fn letters_of_two_faces_stand_in_one_line() {

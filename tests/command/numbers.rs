@@ -1,4 +1,4 @@
-//! Numbers that a file does not hold: strays far off, and corners that are rounded before they are read.
+//! Models with bad coordinates: stray points far away, and corners that were rounded before they were read.
 
 use crate::model::{I16, Model, U32};
 use crate::shared::program::{done, gnomon, stderr};
@@ -43,7 +43,7 @@ fn pergola() -> (Vec<[f64; 3]>, Vec<u32>) {
     (corners, indices)
 }
 
-/// A node with such a mesh of single-precision numbers.
+/// A node with this mesh in single precision.
 fn add(model: &mut Model, name: &str, corners: &[[f64; 3]], indices: &[u32]) {
     let floats: Vec<f32> = corners.iter().flatten().map(|&number| number as f32).collect();
     let positions = model.f32s("VEC3", &floats);
@@ -68,8 +68,8 @@ fn folder(model: &Model, keys: &str) -> TempDir {
     folder
 }
 
-/// The pergola, and where asked a triangle so many metres east of it, in the same primitive: it lies there, or reaches there
-/// from home.
+/// The pergola, optionally with a triangle in the same primitive at a distance to the east, in metres: it is there, or
+/// reaches from the pergola to there.
 fn strayed(metres: Option<f64>, from: From) -> TempDir {
     let (mut corners, mut indices) = pergola();
     if let Some(east) = metres {

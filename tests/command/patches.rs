@@ -1,4 +1,4 @@
-//! `gnomon profile --receivers surfaces`: files, numbers and mistakes.
+//! `gnomon profile --receivers surfaces`: files, numbers and errors.
 
 use crate::shared::program::{done, fails, gnomon, names, site, stderr};
 use glam::DVec3;
@@ -37,7 +37,7 @@ fn suns(folder: &Path, options: &str) -> Vec<(DVec3, f64)> {
     report["instants"].as_array().unwrap().iter().map(sun).collect()
 }
 
-/// A tower whose faces are all there twice: `shared/cases/10-doubled-faces-area`.
+/// A tower with every face twice: `shared/cases/10-doubled-faces-area`.
 #[test]
 fn doubled_faces_count_once_in_all_files_and_are_told() {
     let folder = site();

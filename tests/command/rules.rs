@@ -1,4 +1,4 @@
-//! `gnomon rules`: the list, and a rule as it is written.
+//! `gnomon rules`: the list of rules, and printing a rule.
 
 use crate::shared::program::{done, fails};
 use gnomon::rules::{BUILT_IN, Rule};

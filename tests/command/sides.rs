@@ -1,4 +1,4 @@
-//! `--view south` and `[camera] side`: a side along parallel rays, by the command; and `--view sun`.
+//! `--view south` and `[camera] side`: the command draws a side along parallel rays; and `--view sun`.
 
 use crate::shared::program::{done, fails, pixels, site};
 use serde_json::{Value, json};
@@ -40,7 +40,7 @@ fn a_side_holds_the_models_to_scale() {
     }
 }
 
-/// About a point that the site file names a side shows as much as holds the models.
+/// If the site file names only the point, a side shows enough around it to contain the models.
 #[test]
 fn a_side_holds_the_models_about_a_point() {
     let folder = site();
@@ -58,8 +58,8 @@ fn a_side_holds_the_models_about_a_point() {
     held("[-30, 0, 5]", 35.0, 0.46 * 1600.0);
 }
 
-/// A side that the site file names is the one of the option; with a camera there it shows as much at the same point. The
-/// camera of a perspective says nothing of a side that an option alone asks for.
+/// A side in the site file equals the option's; with a camera there, it shows as much at the same point. The camera of
+/// a perspective does not affect a side that only an option requests.
 #[test]
 fn the_site_file_names_a_side() {
     let folder = site();

@@ -1,4 +1,4 @@
-//! The techniques and their options, as the command takes them.
+//! The techniques and their options on the command line.
 
 use crate::shared::program::{done, fails, gnomon, pixels, site};
 use gnomon::choice::TABLE;

@@ -1,4 +1,4 @@
-//! What is said of model files that cannot be opened, and of how those stand that can.
+//! What is said about model files that cannot be opened, and about the position of those that can.
 
 use crate::shared::program::{done, fails, site};
 use base64::Engine as _;

@@ -1,4 +1,4 @@
-//! Models in other units, and such as lie on their side: what they look like is told, with the key that mends it.
+//! Models in other units, or lying on their side: a note says what they look like and which key corrects it.
 
 use crate::model::{Model, U32};
 use crate::shared::program::{PLACE, STUDY, done, fails, gnomon, stderr};
@@ -40,7 +40,7 @@ pub(crate) fn folder(model: &Model, keys: &str) -> TempDir {
     folder
 }
 
-/// A tower of 10 × 10 × 30 m on the ground, so many units a metre.
+/// A tower of 10 × 10 × 30 m on the ground, with this many units per metre.
 fn tower(units: f64) -> Model {
     block([-5.0 * units, 0.0, -5.0 * units], [5.0 * units, 30.0 * units, 5.0 * units])
 }
@@ -113,7 +113,7 @@ fn what_is_plausible_in_metres_is_not_doubted() {
     assert!(mends(&mountain, "").is_empty());
 }
 
-/// STL is taken for z up, and may be y up.
+/// STL is assumed to have z up, but may have y up.
 #[test]
 fn a_model_that_is_taken_for_z_up_may_lie_the_other_way() {
     let [low, high] = [[-5.0, 0.0, -5.0], [5.0, 30.0, 5.0]];

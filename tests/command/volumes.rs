@@ -1,4 +1,4 @@
-//! `gnomon volumes`: the model, what is said of it, and mistakes.
+//! `gnomon volumes`: the model, the output about it, and errors.
 
 use crate::shared::program::{PLACE, done, fails, gnomon, names, site, stderr};
 use serde_json::Value;

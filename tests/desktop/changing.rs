@@ -1,4 +1,4 @@
-//! What is changed while something else goes on, and after it.
+//! Changes while something else is running, and after it.
 
 use super::exporting::{answer, command, menu};
 use super::*;
@@ -66,7 +66,7 @@ fn the_ground_is_set_in_the_panel() {
     assert_eq!(harness.state().site_file().ground.level, Some(-1.5));
 }
 
-/// After the site is saved elsewhere, what undo brings back still finds its model.
+/// After the site is saved elsewhere, a state that undo restores still finds its model.
 #[test]
 fn undo_finds_the_model_of_a_site_saved_elsewhere() {
     let (folder, site) = small_site();
@@ -87,7 +87,7 @@ fn undo_finds_the_model_of_a_site_saved_elsewhere() {
     assert_eq!(harness.state().site_file().model[0].path.as_deref(), folder.path().join("works.glb").to_str());
 }
 
-/// Two switches one right after the other hold both, though the first is still being read.
+/// Two switches in quick succession both take effect, though the first is still being processed.
 #[test]
 fn switches_do_not_undo_each_other() {
     let (_folder, site) = small_site();
@@ -106,7 +106,7 @@ fn switches_do_not_undo_each_other() {
     assert_eq!(casts.len(), loaded.mesh.components.len() - names.len());
 }
 
-/// Hours on façades are of the very model that they were found on, whenever that changes.
+/// Hours on façades belong to the model on which they were found, even if it changes in the meantime.
 #[test]
 fn facades_of_another_model_are_not_laid() {
     let (_folder, site) = small_site();
@@ -121,7 +121,7 @@ fn facades_of_another_model_are_not_laid() {
     assert!(harness.query_by_label("Show the hours").is_none(), "the hours are of other faces");
 }
 
-/// Undo takes back what was asked, and not that its answer is looked at.
+/// Undo takes back the request, but not that its result is shown.
 #[test]
 fn undo_passes_over_the_hours_that_came() {
     let (_folder, site) = small_site();
@@ -150,7 +150,7 @@ fn undo_passes_over_the_hours_that_came() {
     assert!(!shown(&harness));
 }
 
-/// What its unit may be millimetres, and like a model on its side, is mended by a button, and undone.
+/// A model that may be in millimetres, or lie on its side, is corrected by a button, which can be undone.
 #[test]
 fn a_unit_and_an_axis_are_mended_by_a_button() {
     let folder = tempfile::tempdir().unwrap();

@@ -17,7 +17,7 @@ fn without(site: &Path, casts: &[String]) -> PathBuf {
     beside(site, &format!("casts = {casts:?}\n"))
 }
 
-/// The same, its model with more said of it.
+/// The same, with further keys for its model.
 fn beside(site: &Path, more: &str) -> PathBuf {
     let text = std::fs::read_to_string(site).unwrap();
     let path = site.with_file_name("without.toml");
@@ -45,7 +45,7 @@ fn compare_with(harness: &mut Harness<'_, App>, path: &Path) {
     answer(harness, path, "Compare");
 }
 
-/// Which pixels of a plan show ground, and their neighbours, too: no line and nothing thinner than a cell.
+/// Which pixels of a plan show ground and have only ground around them: no line and nothing thinner than a cell.
 fn ground(pair: &Pair, grid: &Grid) -> Vec<bool> {
     let site = &pair.after;
     let of = |components: &[bool]| site.mesh.of_components(components);
@@ -63,7 +63,7 @@ fn ground(pair: &Pair, grid: &Grid) -> Vec<bool> {
     (0..width * height).map(is_ground).collect()
 }
 
-/// How many ground pixels of a plan are wrong, and how many change; at borders of colours nothing is said.
+/// How many ground pixels of a plan are wrong, and how many change; borders of colours are ignored.
 fn wrong(
     grid: &Grid,
     (pixels, is_ground): (&[[u8; 4]], &[bool]),
@@ -93,7 +93,7 @@ fn wrong(
     (wrong, changed)
 }
 
-/// The first row of the areas that the panel does not tell: what it is, and beside it both columns in their order.
+/// The first row of the areas that is missing in the panel, with its label and both columns in order.
 pub(crate) fn not_told(harness: &Harness<'_, App>, pair: &Pair, of: &CompareOutcome) -> Option<[String; 3]> {
     let places = |text: &str| -> Vec<egui::Pos2> {
         let text = text.replace('-', "−");
@@ -111,7 +111,7 @@ pub(crate) fn not_told(harness: &Harness<'_, App>, pair: &Pair, of: &CompareOutc
     comparison::rows(&of.comparison, &pair.after.track).into_iter().find(|row| !is_told(row))
 }
 
-/// Undoes or redoes so many times.
+/// Undoes or redoes `times` times.
 fn again(harness: &mut Harness<'_, App>, keys: egui::Modifiers, times: usize) {
     for _ in 0..times {
         harness.key_press_modifiers(keys, Key::Z);
@@ -120,7 +120,7 @@ fn again(harness: &mut Harness<'_, App>, keys: egui::Modifiers, times: usize) {
     }
 }
 
-/// Keeps the site's hours to be compared with, and lets a component cast no more.
+/// Keeps the site's hours for the comparison, and switches off the shadow of a component.
 fn keep_and_switch_off(harness: &mut Harness<'_, App>, name: &str) {
     click(harness, "Find the hours");
     settle(harness);
@@ -129,7 +129,7 @@ fn keep_and_switch_off(harness: &mut Harness<'_, App>, name: &str) {
     click(harness, &format!("{name} casts"));
 }
 
-/// The state is kept, a component casts no more, and the difference is that of the two states' files.
+/// The state is kept, a component is switched off, and the difference equals that of the two states' files.
 #[test]
 fn change_from_a_kept_state_is_the_engines() {
     let (_folder, site) = small_site();
@@ -186,7 +186,7 @@ fn change_from_a_kept_state_is_the_engines() {
     assert!(harness.query_by_label("Sun lost and gained").is_none(), "nothing is told of a change any more");
 }
 
-/// What was kept is of another study once that changes, and is found again.
+/// When the study changes, the kept hours no longer fit, and are found again.
 #[test]
 fn kept_state_follows_the_study() {
     let (_folder, site) = small_site();
@@ -261,7 +261,7 @@ fn change_from_another_file_is_that_of_the_command() {
     assert!(told.starts_with(&said), "{told} is not {said}");
 }
 
-/// What does not go together is told in the command's words, and what was shown stays.
+/// Choices that cannot be combined are reported with the command's message, and the picture does not change.
 #[test]
 fn other_place_is_refused_as_by_the_command() {
     let (_folder, site) = small_site();

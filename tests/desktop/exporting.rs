@@ -1,4 +1,4 @@
-//! The hours, and what is exported: the same as by the command.
+//! The hours and the exported files are the same as those of the command.
 
 use super::*;
 use std::process::Command;
@@ -8,7 +8,7 @@ pub(crate) fn command(arguments: &[&std::ffi::OsStr]) {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
 }
 
-/// Where the system answers no dialog, the window has its own.
+/// If the system has no dialogs, the window shows its own.
 pub(crate) fn answer(harness: &mut Harness<'_, App>, path: &Path, go: &str) {
     name(harness, path);
     if harness.query_by_label(go).is_some() {
@@ -17,7 +17,7 @@ pub(crate) fn answer(harness: &mut Harness<'_, App>, path: &Path, go: &str) {
     settle(harness);
 }
 
-/// The same, and what comes of it is not waited for.
+/// The same, without waiting for the result.
 pub(crate) fn name(harness: &mut Harness<'_, App>, path: &Path) {
     let begun = Instant::now();
     while harness.query_by_role_and_label(egui::Role::TextInput, "Path").is_none() {
@@ -58,7 +58,8 @@ fn hours_are_those_of_the_command() {
     }
 }
 
-/// Iso-hour lines and outlines, each as PNG and as SVG; what cannot be drawn is told without the command's options.
+/// Iso-hour lines and outlines, each as PNG and as SVG; messages about what cannot be drawn do not name options of the
+/// command.
 #[test]
 fn lines_are_those_of_the_command() {
     let (folder, site) = small_site();
@@ -123,7 +124,7 @@ fn click_on_the_model_finds_when_the_sun_reaches_it() {
     assert!(harness.query_by_label("Sun at ground").is_none());
 }
 
-/// What was found of a point goes with the scene that it was found of.
+/// The result at a point disappears together with its scene.
 #[test]
 fn card_of_a_point_goes_with_its_scene() {
     let (_folder, site) = small_site();
@@ -313,7 +314,7 @@ fn nothing_is_exported_over_a_model() {
     for entry in ["Export the hours…", "Export the animation…"] {
         menu(&mut harness, entry);
         answer(&mut harness, &out, "Write");
-        harness.get_by_label_contains("another study works there");
+        harness.get_by_label_contains("another study is working there");
         harness.get_by_label_contains("somebody's study");
     }
     assert_eq!(out.read_dir().unwrap().count(), 1, "the lock alone");
@@ -323,7 +324,7 @@ fn nothing_is_exported_over_a_model() {
     assert!(out.join("profile.png").exists() && !out.join(".gnomon.lock").exists());
 }
 
-/// Hours that are cancelled are kept: the same study goes on from there another time.
+/// Cancelled hours are kept: the same study continues from there later.
 #[test]
 fn hours_that_are_cancelled_are_kept() {
     are_kept(false);

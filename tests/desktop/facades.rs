@@ -11,7 +11,7 @@ use gnomon::study::{self, PatchOutcome};
 use gnomon::view::{Camera, Surface, View};
 use std::ops::ControlFlow;
 
-/// What the engine says of one pixel of a face.
+/// The engine's result for one pixel of a face.
 struct Seen {
     colour: [u8; 3],
     hours: f64,
@@ -26,7 +26,7 @@ fn studied(path: &Path) -> (Site, PatchOutcome) {
     (site, outcome)
 }
 
-/// Every pixel that lies within a face, as the engine says it is; the others are none.
+/// The engine's result for each pixel that lies within a face; `None` for the others.
 fn seen(site: &Site, outcome: &PatchOutcome, camera: &Camera) -> Vec<Option<Seen>> {
     let receivers = site.mesh.of_components(&site.receives);
     let scene = Scene { casters: site.mesh.of_components(&[]), receivers, ground: site.ground.level };
@@ -137,7 +137,7 @@ fn hours_on_facades_are_the_engines() {
     assert!(harness.query_by_label("Show the hours").is_none(), "the hours are of other faces");
 }
 
-/// What the command notes of a study stands in the panel, as long as its hours do.
+/// The command's notes about a study are in the panel as long as its hours are shown.
 #[test]
 fn notes_of_a_study_are_told() {
     let (folder, site) = small_site();

@@ -1,4 +1,4 @@
-//! Nothing is cut off, at any scale of the interface; the panel keeps the width that a person gave it.
+//! Nothing is cut off at any scale of the interface, and the panel keeps the width that the user gave it.
 
 use super::exporting::answer;
 use super::*;
@@ -11,11 +11,12 @@ fn screen(harness: &Harness<'_, App>) -> egui::Rect {
     harness.ctx.content_rect().expand(0.5)
 }
 
-/// What is read or pressed.
+/// A text or a button.
 struct Part {
     name: String,
     rect: egui::Rect,
-    /// Of which part of the frame it is: the panel, the menus' row, the bar below; else it lies over the picture.
+    /// The part of the frame that it belongs to: the panel, the menu bar, the bar below; otherwise it lies over the
+    /// picture.
     pane: Option<usize>,
 }
 
@@ -67,7 +68,7 @@ fn click_the_ground(harness: &mut Harness<'_, App>) {
     harness.run_steps(2);
 }
 
-/// Moves the pointer to a wall, of which most is read: as much as there is room for, and no part of a word.
+/// Moves the pointer to a wall, whose description is long: as much is shown as there is room for, in whole words.
 fn read_a_wall(harness: &mut Harness<'_, App>) {
     let rect = harness.get_by_label("Model").rect();
     let read = |harness: &Harness<'_, App>| {
@@ -127,7 +128,7 @@ fn nothing_is_cut_off() {
     }
 }
 
-/// The change, its areas, and what it says of a point.
+/// The change, its areas, and the values at a point.
 #[test]
 fn change_is_whole_at_every_scale() {
     let (_folder, site) = small_site();

@@ -1,4 +1,4 @@
-//! What is hidden is not in the picture, and counts all the same.
+//! Hidden parts are not drawn, but they still cast shadows.
 
 use super::*;
 use gnomon::shadow::ray_cast::RayCast;
@@ -25,7 +25,7 @@ fn largest(names: &[String], of_pixels: &[Option<usize>]) -> usize {
     (0..names.len() - 1).max_by_key(pixels).expect("components")
 }
 
-/// Where a pixel of the view is in the window.
+/// The position in the window of a pixel of the view.
 fn place(harness: &Harness<'_, App>, view: View, pixel: usize) -> Pos2 {
     let (width, height) = view.size();
     let share = |at: u32, of: u32| (at as f32 + 0.5) / of as f32;
@@ -37,8 +37,8 @@ fn pixels(harness: &Harness<'_, App>) -> Vec<[u8; 4]> {
     harness.state().picture().unwrap().2
 }
 
-/// The picture is that of a site in which the component does not receive, which the command looks through; the site
-/// stays as it is.
+/// The picture is that of a site in which the component does not receive, and is therefore transparent; the site is
+/// unchanged.
 #[test]
 fn hidden_component_is_looked_through_and_casts() {
     let (_folder, site) = small_site();
@@ -122,7 +122,7 @@ fn hours_stay_on_the_faces_beside_hidden_ones() {
     assert_eq!(told(&mut harness, at), said);
 }
 
-/// Parts of one thing begin alike: what their names end with is not cut off.
+/// Names of related parts begin alike, so their ends are not cut off.
 #[test]
 fn names_that_are_cut_are_told_apart() {
     let mut harness = window(Some(&sample("headquarters")));

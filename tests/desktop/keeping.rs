@@ -1,10 +1,10 @@
-//! What is kept from one start to the next.
+//! What the app remembers from one start to the next.
 
 use super::*;
 use crate::desktop::exporting::menu;
 use std::collections::HashMap;
 
-/// eframe's file of what is kept, in memory.
+/// eframe's storage, in memory.
 #[derive(Clone, Default)]
 struct Store(HashMap<String, String>);
 
@@ -36,7 +36,7 @@ fn close(mut harness: Harness<'static, App>) -> Store {
     store
 }
 
-/// Opens it again as eframe does, what egui remembers first, then the app; and the theme that it comes to.
+/// Opens it again as eframe does: first egui's memory, then the app. Returns the resulting theme.
 fn again(store: Store) -> (Harness<'static, App>, egui::ThemePreference) {
     let store: &'static Store = Box::leak(Box::new(store));
     let mut theme = egui::ThemePreference::System;

@@ -1,4 +1,4 @@
-//! A real window that is killed, before a real X server: the next one offers what was not saved.
+//! A real window that is killed, on a real X server: the next one offers the unsaved settings.
 
 use super::xvfb::{Running, keep_screen, run, server};
 use super::{sample, small_site};
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// A window, before a display, and the file with what it says.
+/// A window on a display, and the file with its output.
 struct Window<'a> {
     process: Running,
     display: &'a str,
@@ -14,7 +14,7 @@ struct Window<'a> {
 }
 
 impl Window<'_> {
-    /// Waits for something; which is asked for again where a busy machine lost it.
+    /// Waits for something, and repeats the request if a busy machine lost it.
     fn until(&mut self, what: &str, mut is_so: impl FnMut() -> bool) {
         let begun = Instant::now();
         while !is_so() {

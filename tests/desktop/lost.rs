@@ -1,4 +1,4 @@
-//! A graphics device that is lost under the window: the picture comes again, and what was under way goes on.
+//! The window's graphics device is lost: the picture comes back, and running work continues.
 
 use super::resizing::{SAYS, Watched, on_any_thread, shows_window_of, stencil_site};
 use super::xvfb::{screen, server, shades};
@@ -9,7 +9,7 @@ fn pixels(harness: &Harness<'_, App>) -> Vec<[u8; 4]> {
     harness.state().picture().expect("a picture").2
 }
 
-/// How many pixels of two pictures are others.
+/// How many pixels of two pictures differ.
 fn differing(a: &[[u8; 4]], b: &[[u8; 4]]) -> usize {
     assert_eq!(a.len(), b.len());
     a.iter().zip(b).filter(|(a, b)| a != b).count()
@@ -165,7 +165,7 @@ fn window_is_opened_again_whose_device_is_lost() {
 
 const OFTEN: &str = "lost::window_goes_to_the_processor_and_gives_up";
 
-/// Loses each window's device in its first frames, and says what the next one says of it.
+/// Loses the device of each window in its first frames, and prints what the next window says about it.
 fn losing_again_and_again() {
     let mut frames = 0;
     let ended = desktop::open_with(None, &on_any_thread, &mut |app, context| {

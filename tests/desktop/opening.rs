@@ -1,4 +1,4 @@
-//! Opening: what can be opened, what is asked, what is told.
+//! Opening files: what can be opened, and the questions and messages on the way.
 
 use super::*;
 use gnomon::site::{Overrides, Site};
@@ -32,7 +32,7 @@ fn bare_model_asks_for_its_place() {
     assert!(harness.state().picture().is_ok());
 }
 
-/// The open site stays, and what is told is what the command tells.
+/// The open site stays, and the message is that of the command.
 #[test]
 fn bad_model_is_told_as_by_the_command() {
     let (folder, site) = small_site();
@@ -53,7 +53,7 @@ fn bad_model_is_told_as_by_the_command() {
     assert!(harness.query_by_label(&error).is_none());
 }
 
-/// A model that is dropped on an open site is added to it, where that is what is meant; undo takes it out again.
+/// A model dropped on an open site is added to it if the user says so; undo removes it.
 #[test]
 fn dropped_model_is_added_to_the_open_site() {
     let (folder, site) = small_site();
@@ -103,7 +103,7 @@ fn model_dropped_with_a_site_is_added_to_it() {
     );
 }
 
-/// The elevation that a model's file says is shown, and saved with a word of where it is from.
+/// The elevation of a model's file is shown, and saved with a comment on its source.
 #[test]
 fn elevation_of_a_file_is_saved() {
     let folder = tempfile::tempdir().unwrap();
@@ -160,7 +160,7 @@ fn place_changes_and_comes_back() {
     assert_eq!(latitude(&harness), Some(-33.9));
 }
 
-/// A study of several whole days keeps what it says, and what it leaves out.
+/// A study of several whole days keeps the keys that it has, and no others are added.
 #[test]
 fn study_of_several_days_stays_as_it_is() {
     let (_folder, site) = small_site();
@@ -174,7 +174,7 @@ fn study_of_several_days_stays_as_it_is() {
     assert!(study.from.is_none() && study.to.is_none() && study.date.is_none(), "{study:?}");
 }
 
-/// What a study would say of coordinates that are not those of the place stands in the panel before any study.
+/// The note about coordinates far from the place is in the panel before any study.
 #[test]
 fn plan_in_map_coordinates_is_told_on_opening() {
     let (folder, site) = small_site();
@@ -201,7 +201,7 @@ fn notes_have_the_panels_labels() {
     harness.get_by_label_contains("\"Ground\" under Place sets it");
 }
 
-/// What the command would note of the models stands in the panel; where there is nothing to note it has no such part.
+/// The command's notes about the models are in the panel; without notes it has no such section.
 #[test]
 fn notes_of_models_stand_in_the_panel() {
     let (folder, site) = small_site();

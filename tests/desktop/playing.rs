@@ -1,4 +1,4 @@
-//! The day and the year as they play.
+//! Playing the day and the year.
 
 use super::*;
 use chrono::{NaiveDate, NaiveTime};
@@ -15,7 +15,7 @@ fn plays(harness: &Harness<'_, App>, name: &str) -> bool {
     harness.get_by_label(name).accesskit_node().toggled() == Some(egui::accesskit::Toggled::True)
 }
 
-/// All that a part says while something plays to its end, once each.
+/// All texts that a part shows while something plays to its end, each once.
 fn played<T: PartialEq>(harness: &mut Harness<'_, App>, name: &str, says: impl Fn(&Harness<'_, App>) -> T) -> Vec<T> {
     let mut said = Vec::new();
     for _ in 0..800 {

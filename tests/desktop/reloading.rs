@@ -1,4 +1,4 @@
-//! Files that change on the disk while they are open.
+//! Files that change on disk while they are open.
 
 use super::comparing::{compared, not_told};
 use super::exporting::{answer, command, menu};
@@ -41,7 +41,7 @@ fn replace_model(folder: &Path) {
 const NOTICE: &str = "works.glb has changed on the disk.";
 const STALE: &str = "The request has changed since: find it again.";
 
-/// What is open is what was read, in the picture and in what is handed in, until somebody reloads it.
+/// Picture and exports show the files as they were read, until somebody reloads them.
 #[test]
 fn changed_model_is_told_and_read_when_asked() {
     let (folder, site) = small_site();
@@ -76,7 +76,7 @@ fn changed_model_is_told_and_read_when_asked() {
     assert!(after != before && after == plan_by_command(&site, folder.path()), "what is open is what lies there now");
 }
 
-/// A file that was written again and says the same changes nothing.
+/// A file that was rewritten with the same content changes nothing.
 #[test]
 fn hours_stay_where_the_model_is_the_same() {
     let (folder, site) = small_site();

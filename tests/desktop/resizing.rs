@@ -1,4 +1,4 @@
-//! A real window under a hand that resizes it, while pictures and hours are drawn on a graphics device.
+//! A real window that a user resizes while pictures and hours are drawn on a graphics device.
 
 use super::xvfb::{Running, run, screen, server, shades};
 use super::*;
@@ -7,10 +7,10 @@ use std::io::{BufRead, BufReader};
 use std::process::{Command, Stdio};
 use std::sync::mpsc;
 
-/// Names the test whose window a process is to show.
+/// The variable that names the test whose window a process shows.
 const WINDOW_OF: &str = "GNOMON_TEST_WINDOW_OF";
 
-/// Whether this process shows the window of a test, and is watched by another.
+/// Whether this process shows the window of a test that runs in another process.
 pub(super) fn shows_window_of(test: &str) -> bool {
     std::env::var(WINDOW_OF).is_ok_and(|of| of == test)
 }
@@ -24,7 +24,7 @@ pub(super) fn on_any_thread(options: &mut NativeOptions) {
     }));
 }
 
-/// A test in a process of its own, before a display: what it says, line by line, each after this mark.
+/// A test in a separate process with a display: its output line by line, each after this mark.
 pub(super) struct Watched {
     pub(super) process: Running,
     lines: mpsc::Receiver<String>,
@@ -32,7 +32,7 @@ pub(super) struct Watched {
     _home: tempfile::TempDir,
 }
 
-/// What a window says begins so.
+/// The beginning of each line that a window prints.
 pub(super) const SAYS: &str = "window: ";
 
 impl Watched {
@@ -67,7 +67,7 @@ impl Watched {
         self.wait(what, |said| said == what);
     }
 
-    /// Waits until it says something that begins so.
+    /// Waits until it prints a line with this beginning.
     pub(super) fn until_any(&mut self, what: &str) {
         self.wait(what, |said| said.starts_with(what));
     }
@@ -87,8 +87,7 @@ impl Watched {
     }
 }
 
-/// The works, drawn and added up by the stencil at so many instants: on a device, also where that is a program on the
-/// processor.
+/// The works, drawn and added up by the stencil at a number of instants, on a device that may be a software adapter.
 pub(super) fn stencil_site(step: &str) -> (tempfile::TempDir, PathBuf) {
     let (folder, site) = small_site();
     let text = std::fs::read_to_string(&site).expect("a site file");
@@ -100,7 +99,7 @@ pub(super) fn stencil_site(step: &str) -> (tempfile::TempDir, PathBuf) {
 const RESIZED: &str = "resizing::window_lives_that_is_resized_a_hundred_times";
 const SIZES: usize = 100;
 
-/// Draws on, whatever the size, and says what it comes to.
+/// Continues drawing at any size, and returns the result.
 fn resized_window() {
     let (_folder, site) = stencil_site("10min");
     let mut studies = 0;

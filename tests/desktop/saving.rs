@@ -1,4 +1,4 @@
-//! What is saved, what is asked about what is not, and what is offered of windows that have ended.
+//! Saving, the question about unsaved settings, and the settings offered from windows that have ended.
 
 use super::exporting::{answer, menu, name};
 use super::*;
@@ -15,14 +15,14 @@ fn save(harness: &mut Harness<'_, App>) {
     settle(harness);
 }
 
-/// Asks the window to close, as a system does; whether it does.
+/// Asks the window to close, as the system does; returns whether it closes.
 fn closes(harness: &mut Harness<'_, App>) -> bool {
     harness.input_mut().viewports.get_mut(&ViewportId::ROOT).unwrap().events.push(ViewportEvent::Close);
     harness.step();
     !commands(harness).contains(&ViewportCommand::CancelClose)
 }
 
-/// What the window asks of the system in this frame.
+/// The window's commands to the system in this frame.
 fn commands(harness: &Harness<'_, App>) -> Vec<ViewportCommand> {
     harness.output().viewport_output[&ViewportId::ROOT].commands.clone()
 }
@@ -70,7 +70,7 @@ fn save_writes_the_file_that_is_open() {
 
 const REDO: egui::Modifiers = egui::Modifiers { shift: true, ..egui::Modifiers::COMMAND };
 
-/// What stands in a field that nobody has left yet is saved, too.
+/// The text of a field that still has the focus is saved, too.
 #[test]
 fn save_takes_what_is_being_typed() {
     let (_folder, site) = small_site();
@@ -178,7 +178,7 @@ fn file_that_is_there_is_not_replaced_without_a_question() {
     assert_eq!(std::fs::read(frames.join("frame-0003.png")).unwrap(), b"somebody's");
 }
 
-/// What was to follow one question does not follow what is saved after another.
+/// The action that waits for one question does not run after the save of another.
 #[test]
 fn what_follows_a_question_goes_with_it() {
     let (_folder, site) = small_site();
@@ -204,7 +204,7 @@ fn what_follows_a_question_goes_with_it() {
     harness.get_by_label("Works");
 }
 
-/// What another program has written into the open file since is no more replaced unasked than any other file.
+/// Changes that another program made to the open file are not replaced without a question.
 #[test]
 fn file_that_has_changed_is_not_replaced_without_a_question() {
     let (_folder, site) = small_site();
@@ -295,7 +295,7 @@ fn opening_and_reloading_ask_about_what_is_not_saved() {
     assert!(std::fs::read_to_string(&site).unwrap().contains("step = \"1h\""));
 }
 
-/// A bare model has no file yet: where it stands is saved nowhere, and a path is asked for.
+/// A bare model has no site file yet: its place is not saved anywhere, and the window asks for a path.
 #[test]
 fn bare_model_is_not_saved_until_it_has_a_file() {
     let (folder, site) = small_site();
@@ -323,7 +323,7 @@ fn bare_model_is_not_saved_until_it_has_a_file() {
     assert!(std::fs::read_to_string(&site).unwrap().contains("latitude = 48.2"));
 }
 
-/// A window that keeps what is not saved in this folder, as the real one does in its own.
+/// A window that stores unsaved settings in this folder, as the real one does in its own.
 fn keeping(path: Option<&Path>, folder: &Path) -> Harness<'static, App> {
     let (path, folder) = (path.map(Path::to_owned), folder.to_owned());
     let builder = Harness::<App>::builder().with_size([1280.0, 720.0]).wgpu_setup(desktop::setup());
@@ -338,7 +338,7 @@ fn kept(folder: &Path) -> usize {
     entries.flatten().filter(|entry| entry.path().extension().is_some_and(|is| is == "json")).count()
 }
 
-/// Waits until what is not saved is kept, and says this.
+/// Waits until unsaved settings are stored and contain this text.
 fn until_kept(harness: &mut Harness<'_, App>, folder: &Path, text: &str) {
     let begun = Instant::now();
     let files = || folder.read_dir().into_iter().flatten().flatten().map(|entry| entry.path());
@@ -350,7 +350,7 @@ fn until_kept(harness: &mut Harness<'_, App>, folder: &Path, text: &str) {
     }
 }
 
-/// Nothing of a window that lives is offered; of one that has ended all is, until somebody saves or discards it.
+/// Settings of an open window are not offered; those of a closed one are, until somebody saves or discards them.
 #[test]
 fn what_was_not_saved_is_offered_again() {
     let (folder, site) = small_site();
@@ -402,7 +402,7 @@ fn what_was_not_saved_is_offered_again() {
     assert!(!is_asked(&keeping(None, &recovery), OFFER));
 }
 
-/// A bare model comes back where it was put, and what is discarded is gone.
+/// A bare model is restored at its place, and discarded settings are gone.
 #[test]
 fn bare_model_is_offered_again() {
     let (folder, site) = small_site();
@@ -432,7 +432,7 @@ fn bare_model_is_offered_again() {
     assert!(!is_asked(&keeping(None, &recovery), OFFER));
 }
 
-/// Who does not want it when the window closes is not asked again.
+/// Settings that the user did not save when the window closed are not offered again.
 #[test]
 fn what_is_left_at_closing_is_not_offered() {
     let (folder, site) = small_site();
@@ -449,7 +449,7 @@ fn what_is_left_at_closing_is_not_offered() {
     assert!(!is_asked(&keeping(None, &recovery), OFFER));
 }
 
-/// Where nothing can be kept, that is told once, and all else goes on.
+/// If nothing can be stored, the window says so once, and everything else continues.
 #[test]
 fn what_cannot_be_kept_is_told() {
     let (folder, site) = small_site();

@@ -8,7 +8,7 @@ use gnomon::shadow::{Scene, Technique};
 use gnomon::site::{Overrides, Site};
 use gnomon::view::{Mask, Surface, View};
 
-/// How many ground pixels of the picture have another tone than the mask says; and how many of each there are.
+/// How many ground pixels of the picture contradict the mask, and how many pixels of each tone there are.
 fn wrong(pixels: &[[u8; 4]], surface: &Surface, mask: &Mask, tones: [[u8; 3]; 2]) -> (usize, [usize; 2]) {
     let near = |pixel: &[u8; 4], tone: [u8; 3]| (0..3).all(|at| pixel[at].abs_diff(tone[at]) <= 2);
     let (mut wrong, mut counts) = (0, [0, 0]);
@@ -23,7 +23,7 @@ fn wrong(pixels: &[[u8; 4]], surface: &Surface, mask: &Mask, tones: [[u8; 3]; 2]
     (wrong, counts)
 }
 
-/// The window shows what the engine's own mask says, and the colours that a drawing has.
+/// The window shows the engine's mask in the colours of a drawing.
 #[test]
 fn picture_is_the_engines_mask() {
     let path = sample("industry");

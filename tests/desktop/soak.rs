@@ -1,4 +1,4 @@
-//! Anything may come from a hand: the window neither falls nor grows.
+//! Random input from a user: the window must not crash, and its memory must not grow.
 
 use super::*;
 use egui::{Modifiers, PointerButton, pos2};

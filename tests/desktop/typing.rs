@@ -1,8 +1,8 @@
-//! Numbers, degrees, dates and times as people type them, and what is refused beside its field.
+//! Numbers, degrees, dates and times as people type them, and errors beside their fields.
 
 use super::*;
 
-/// Whether this stands in the window, whatever it is a part of.
+/// Whether the window contains this text, also as a part of another.
 fn says(harness: &Harness<'_, App>, text: &str) -> bool {
     harness.query_by_label_contains(text).is_some()
 }
@@ -46,7 +46,7 @@ fn decimal_comma_is_a_decimal_point_in_every_number() {
     assert!(!says(&harness, "\"1,2,3\" is not a number"), "the scale was mended");
 }
 
-/// A field that is entered and left says what it said, also in the decimals that it does not show.
+/// A field that is entered and left keeps its value, including decimals that it does not show.
 #[test]
 fn field_that_is_left_alone_keeps_all_its_decimals() {
     let (_folder, site) = small_site();
@@ -140,7 +140,7 @@ fn dates_and_times_are_read_and_written_as_the_site_file_says_them() {
     assert_eq!(value(&harness, "Clock"), "17:00");
 }
 
-/// A study that is none is told by the panel's labels, and not by the keys and options of a site file and the command.
+/// Errors about an invalid study use the panel's labels, not the keys of a site file or options of the command.
 #[test]
 fn what_is_wrong_with_a_study_is_told_by_the_labels() {
     let (_folder, site) = small_site();
@@ -159,7 +159,7 @@ fn what_is_wrong_with_a_study_is_told_by_the_labels() {
     assert_eq!(set(&mut harness, "to", "17:00"), None);
 }
 
-/// What a technique cannot do is told by the panel's labels.
+/// Errors about what a technique cannot do use the panel's labels.
 #[test]
 fn what_a_technique_cannot_do_is_told_by_the_labels() {
     let (_folder, site) = small_site();
@@ -175,7 +175,7 @@ fn what_a_technique_cannot_do_is_told_by_the_labels() {
     assert!(told.starts_with("Technique: soft-texture ") && !told.contains("--"), "{told}");
 }
 
-/// What cannot be read keeps the dialog open, with what was typed and why.
+/// Unreadable text keeps the dialog open, with the text and the reason.
 #[test]
 fn dialog_stays_open_over_what_cannot_be_read() {
     let mut harness = window(None);

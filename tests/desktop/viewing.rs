@@ -1,4 +1,4 @@
-//! Where the eye stands and what lies over the picture; and what can be shown instead of sun and shadow.
+//! The position of the eye, overlays over the picture, and what can be shown instead of sun and shadow.
 
 use super::exporting::{answer, menu};
 use super::*;
@@ -20,7 +20,7 @@ fn side(harness: &Harness<'_, App>) -> Elevation {
     }
 }
 
-/// The point that the readout names, metres.
+/// The point in the readout, metres.
 fn readout(harness: &Harness<'_, App>) -> DVec3 {
     let text = named(harness, " up, m").0.replace('−', "-");
     let said = text.rsplit("    ").next().unwrap_or_default().to_owned();
@@ -176,8 +176,8 @@ fn diagrams_and_the_disc_are_seen() {
     assert!(changed > 100 && changed * 4 < hard.len(), "{changed} of {} pixels, those at edges", hard.len());
 }
 
-/// A side is seen whole when one comes to it first: the models fill it, on a ground that lies low. Showing all of it leaves
-/// the other stands as they were.
+/// A side first shows everything: the models fill it, with the ground low in the picture. Showing everything does not
+/// change other views.
 #[test]
 fn side_is_fitted_and_no_other_stand() {
     let (_folder, site) = small_site();
@@ -216,7 +216,7 @@ fn side_is_fitted_and_no_other_stand() {
     assert_eq!(stand(&mut harness, Key::Num2), plan, "the plan has moved");
 }
 
-/// The sheet of a side leaves nothing out that the window shows.
+/// The sheet of a side shows at least as much as the window.
 #[test]
 fn exported_side_is_that_of_the_window() {
     let (folder, site) = small_site();

@@ -1,4 +1,4 @@
-//! The real window, before a real X server, with a pointer and keys. `tests/run.sh` installs what that needs.
+//! The real window on a real X server, with pointer and keys. `tests/run.sh` installs what that needs.
 
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -137,7 +137,7 @@ fn real_window_opens_scrubs_and_closes() {
     assert!(window.0.try_wait().unwrap().is_none(), "the window is still open");
 }
 
-/// Without a display the command says so, and does not fall.
+/// Without a display the command says so, and does not crash.
 #[test]
 fn no_display_is_told() {
     let output = Command::new(env!("CARGO_BIN_EXE_gnomon"))

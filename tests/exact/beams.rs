@@ -1,11 +1,12 @@
-//! Beams on the sample sites: cell by cell they answer as the plain caster does, with whatever instructions there are.
+//! Beams on the sample sites: every cell equals that of the plain caster, with each instruction set that the machine
+//! has.
 
 use glam::DVec3;
 use gnomon::shadow::JUDGED_ABOVE_M;
 use gnomon::shadow::rays::{PlainCaster, RayCaster, Shear, SimdLevel};
 use gnomon::site::{Overrides, Site};
 
-/// Cells a side of the squares that are asked at once.
+/// Cells along a side of the squares that are traced at once.
 const SIDE: u32 = 8;
 
 #[test]
@@ -54,7 +55,7 @@ fn beams_on_the_sites_agree_with_plain_rays() {
     }
 }
 
-/// Where squares begin that are spread over a plan: a third of them.
+/// Where squares begin that are spread over a plan and cover a third of it.
 fn squares(width: u32, height: u32) -> impl Iterator<Item = (u32, u32)> {
     let of_row = move |row: u32| (0..width / SIDE).map(move |column| (row, column));
     let all = (0..height / SIDE).flat_map(of_row);

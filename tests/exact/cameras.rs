@@ -40,7 +40,7 @@ fn differences(scene: &Scene, sun: DVec3, cameras: &[Camera], forced: Option<boo
     cameras.iter().map(of).collect()
 }
 
-/// Each picture agrees with the truth. In how many z-fail was chosen.
+/// Each picture agrees with the truth. Returns for how many z-fail was chosen.
 fn agree(name: &str, cameras: &[Camera], sun: DVec3) -> usize {
     let scene = crossing();
     let differences = differences(&scene, sun, cameras, None);

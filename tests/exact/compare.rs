@@ -1,4 +1,4 @@
-//! The comparison of masks is seen to fail.
+//! The comparison of masks itself detects differences.
 
 use crate::shared::drawing::{plan, scene_of, to_sun};
 use crate::shared::scenes::cuboid;

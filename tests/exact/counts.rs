@@ -1,4 +1,4 @@
-//! The count is never wrong: not where it passes 128 or 256, nor where half of it does.
+//! The count is never wrong, not even where it exceeds 128 or 256, or where half of it does.
 
 use super::masks;
 use crate::shared::drawing::{plan, scene_of, to_sun};
@@ -10,7 +10,7 @@ use gnomon::shadow::Technique;
 use gnomon::shadow::ray_cast::RayCast;
 use gnomon::view::{Camera, Surface, View};
 
-/// Around the powers of two that a count, twice a count and half a count pass.
+/// Counts around the powers of two that a count, its double or its half exceeds.
 const PLATES: [u32; 12] = [127, 128, 129, 254, 255, 256, 257, 258, 510, 512, 514, 1024];
 
 /// Closed slabs, or single sheets.

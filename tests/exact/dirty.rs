@@ -1,4 +1,4 @@
-//! Meshes with each kind of dirt: the stencil equals ray casting on the plan, on what stands there and in pictures.
+//! Meshes with each kind of defect: the stencil equals ray casting on the plan, on receivers and in pictures.
 
 use super::{agree, masks};
 use crate::shared::drawing::{scene_of, to_sun};

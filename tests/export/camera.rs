@@ -1,4 +1,4 @@
-//! The made-up town as a camera sees it, by the plainest ray casting.
+//! The synthetic town as a camera sees it, by the simplest ray casting.
 
 use super::synthetic::corners;
 use glam::DVec3;

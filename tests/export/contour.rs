@@ -1,4 +1,4 @@
-//! Contours against the cells that they part, one by one.
+//! Contours against the cells that they separate, one by one.
 
 use gnomon::choice::{Engine, Receivers};
 use gnomon::contour::{Contour, ScalarField, contours};
@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-/// How often lines cross the way from a cell to its neighbour in the east (or the south), and whether a drawn one does.
+/// How often lines cross between a cell and its eastern (or southern) neighbour, and whether a drawn one does.
 type Crossed = BTreeMap<(usize, usize), (usize, bool)>;
 
 /// All pairs of neighbours that are crossed; half-open, so that a corner right between two cells counts once.
@@ -43,8 +43,8 @@ fn crossed(contours: &[Contour], [width, height]: [usize; 2]) -> Crossed {
     crossed
 }
 
-/// Every pair of neighbours is crossed once where one is above and the other is not, and else never; and what crosses is
-/// drawn where it may be. Says how many pairs are parted.
+/// A line crosses between two neighbours once if one is above the threshold and the other is not, and otherwise never;
+/// and it is drawn where allowed. Returns how many pairs are separated.
 fn agree(field: &ScalarField, threshold: u64, contours: &[Contour]) -> usize {
     let [width, height] = [field.width, field.height].map(|count| count as usize);
     let crossed = crossed(contours, [width, height]);
@@ -114,7 +114,7 @@ fn no_line_is_drawn_along_the_border() {
     assert_eq!(areas, [35.0, -0.5]);
 }
 
-/// Two cells that touch at a corner hang together where their mean with the other two is above.
+/// Two cells that touch at a corner are connected if their mean with the other two is above the threshold.
 #[test]
 fn saddles_hang_together_by_their_mean() {
     for values in [[9, 0, 0, 9], [0, 9, 9, 0]] {
@@ -124,7 +124,7 @@ fn saddles_hang_together_by_their_mean() {
     }
 }
 
-/// At any slope a straight edge comes out with few corners, and nowhere a cell off.
+/// At any slope a straight edge gets few corners, and is nowhere a cell off.
 #[test]
 fn straight_edges_are_straight() {
     for degrees in (0..180).step_by(7) {

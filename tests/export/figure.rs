@@ -1,4 +1,4 @@
-//! The drawings, looked at by numbers; with GNOMON_PICTURES=FOLDER they are also kept to be looked at by people.
+//! The drawings, checked by numbers. With GNOMON_PICTURES=FOLDER they are also written for people to look at.
 
 use super::camera;
 use super::synthetic::{self, Town};

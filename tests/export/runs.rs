@@ -1,4 +1,4 @@
-//! Which face draws which letters of a line.
+//! Which font draws which letters of a line.
 
 use crate::command::letters::face;
 use fontdb::{Database, ID, Source};

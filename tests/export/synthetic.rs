@@ -1,4 +1,5 @@
-//! A small made-up town, its surface, sun and shadows by plain and rough means: good enough to look at drawings.
+//! A small synthetic town with its surface, sun and shadows, computed in simple and rough ways: good enough to look at
+//! drawings.
 
 use chrono::{NaiveDate, TimeDelta, TimeZone};
 use glam::DVec3;

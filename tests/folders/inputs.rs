@@ -1,4 +1,4 @@
-//! An output that is one of the inputs is refused before the work, whatever it is called.
+//! An output that is one of the inputs is refused before any work, by whatever path it is named.
 
 use super::bytes;
 use crate::shared::program::{PLACE, done, fails, site};

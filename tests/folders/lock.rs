@@ -1,4 +1,4 @@
-//! One study works in a folder at a time; and what a dead one leaves there is in nobody's way.
+//! Only one study at a time works in a folder, and what a dead one left there is not in the way.
 
 use super::bytes;
 use crate::shared::program::{command, done, fails, files, gnomon, numberless, site, stderr};
@@ -44,7 +44,8 @@ fn a_folder_in_which_a_study_works_is_locked() {
         ("animate . --engine cpu --size 20".to_owned(), "out"),
         ("compare . open.glb --engine cpu --size 20".to_owned(), "out"),
     ] {
-        let words = [named, "another study works there", "since 20", &process, "gnomon profile . --technique ray-cast"];
+        let words =
+            [named, "another study is working there", "since 20", &process, "gnomon profile . --technique ray-cast"];
         fails(path, &asked, 1, &words);
         fails(path, &asked, 1, &["wait until it is done, or choose another folder"]);
     }
@@ -57,7 +58,7 @@ fn a_folder_in_which_a_study_works_is_locked() {
     killed(first);
 }
 
-/// Neither its lock nor what it had half written is in the way of the next one, or stays behind it.
+/// Neither its lock nor its incomplete files hinder the next one, or remain after it.
 #[test]
 fn a_killed_study_bars_nobody() {
     let folder = site();
@@ -87,7 +88,7 @@ fn a_killed_study_bars_nobody() {
     assert!(ours == alone, "{:?}", ours.keys());
 }
 
-/// Where a link stands in the lock's place, what it leads to is not written to.
+/// If there is a link in place of the lock, its target is not written to.
 #[cfg(unix)]
 #[test]
 fn a_link_in_the_place_of_the_lock_is_not_followed() {
@@ -108,7 +109,7 @@ fn a_link_in_the_place_of_the_lock_is_not_followed() {
     assert!(!path.join("out/.gnomon.lock").exists());
 }
 
-/// Nobody finds the results of a study whose folder is gone, and it does not end as if all were well.
+/// A study whose folder is gone ends with an error, since nobody would find its results.
 #[cfg(unix)]
 #[test]
 fn a_folder_that_vanishes_is_told() {

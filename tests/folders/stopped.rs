@@ -1,4 +1,4 @@
-//! What a stopped study keeps is its own: checked when it is taken over, and not another's to remove.
+//! The files of a stopped study are verified when they are resumed, and other studies do not remove them.
 
 use super::bytes;
 use crate::shared::program::{command, done, files, gnomon, left, numberless, site, stderr, stopped};
@@ -154,7 +154,7 @@ fn several_stopped_studies_lie_side_by_side() {
     assert_eq!(numberless(&path.join("out")), ["profile.json", "shadow-hours.tif", "shadow.bits"]);
 }
 
-/// What was kept at a stop is still there after the next run was killed.
+/// The files of a stopped study still exist after the next run was killed.
 #[test]
 fn a_killed_study_goes_on_from_what_it_kept_before() {
     let folder = site();
@@ -173,7 +173,7 @@ fn a_killed_study_goes_on_from_what_it_kept_before() {
     assert!(files(&path.join("out")) == files(&path.join("right")));
 }
 
-/// A file may not grow beyond some size: as on a full disk, one error says so, and nothing half is left.
+/// A limit on the size of files acts like a full disk: one error says so, and no incomplete file is left.
 #[test]
 fn a_full_disk_leaves_nothing_half() {
     let folder = site();

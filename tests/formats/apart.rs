@@ -1,4 +1,4 @@
-//! What is read in a process of its own: it gives the same model, and whatever it does is one clear error.
+//! Reading in a separate process: it gives the same model, and whatever goes wrong there becomes one clear error.
 
 use crate::shared::program::site;
 use gnomon::formats::{self, ModelReader, ReadOptions, ReadingListener, SceneName};
@@ -42,7 +42,7 @@ fn program_that_is_not_there_is_told() {
     assert!(told.contains("no process can be started"), "{told}");
 }
 
-/// What takes others' code is read by the program that is named, and all else is not.
+/// Formats that need third-party code are read by the named program, and all others are not.
 #[test]
 fn readers_of_others_run_apart() {
     let folder = site();
@@ -104,7 +104,7 @@ mod bad_readers {
     use std::process::{Command, Stdio};
     use std::time::{Duration, Instant};
 
-    /// A program; another process writes it, as none can be started that is still open in this one.
+    /// A program; another process writes it, since a file that is still open here cannot be started.
     fn program(folder: &Path, text: &str) -> PathBuf {
         let path = folder.join("reader.sh");
         let mut writer = Command::new("sh")
@@ -118,7 +118,7 @@ mod bad_readers {
         path
     }
 
-    /// What comes of a model that such a program reads; in a few seconds, whatever it does.
+    /// The result of a model that such a program reads, within a few seconds whatever it does.
     fn read(text: &str, limits: ReadLimits, given_up: &Arc<AtomicBool>) -> ModelError {
         let folder = site();
         let program = Some(program(folder.path(), text));

@@ -1,5 +1,5 @@
-//! One building, which each format's test writes in its own units and axes: an L of 10 × 20 × 30 m off the centre, so that no
-//! mirrored or turned reading of it is the same. A format's reading is held against the faces that were written.
+//! One building, which the test of each format writes in its own units and axes: an L of 10 × 20 × 30 m off the centre,
+//! so that any mirrored or turned reading differs. The faces that are read are compared with those that were written.
 
 use super::mutations::read_within_memory;
 use crate::shared::memory::CountedThread;
@@ -29,7 +29,7 @@ pub(crate) fn faces() -> Vec<Vec<DVec3>> {
     [top, bottom].into_iter().chain((0..PLAN.len()).map(wall)).collect()
 }
 
-/// The same as a file has them: so many metres a unit, and with that axis up.
+/// The same in a file's unit and with its up axis.
 pub(crate) fn faces_in(unit_m: f64, up: Up) -> Vec<Vec<DVec3>> {
     let corner = |corner: DVec3| match up {
         Up::Z => corner / unit_m,

@@ -1,4 +1,4 @@
-//! City models and footprints. One building is written in each format, and must be read as the same.
+//! City models and footprints. One building is written in each format, and must be read the same from all.
 
 mod block;
 mod citygml;

@@ -1,4 +1,4 @@
-//! glTF whose geometry is compressed. The bytes of meshopt are written here after its specification; those of Draco are the
+//! glTF with compressed geometry. The meshopt data is written here after the specification; the Draco data is the
 //! triangle of its own encoder's simplest method.
 
 use super::building::*;
@@ -197,7 +197,7 @@ fn draco_is_unpacked() {
     refused(&|json| json["bufferViews"][0]["byteLength"] = json!(bytes.len() + 1), &["bytes 0–"]);
 }
 
-/// Where a stream says to which steps its positions were rounded, that is told.
+/// If a stream says how coarsely its positions were rounded, a note says so.
 #[test]
 fn the_rounding_of_draco_is_told() {
     let (mut bytes, mut json) = draco();

@@ -1,4 +1,4 @@
-//! `gnomon convert`: what was read is what is written.
+//! `gnomon convert`: the written model equals the one that was read.
 
 use super::ifc::house::house;
 use crate::model::Model as Written;
@@ -101,7 +101,8 @@ fn standing(loaded: &LoadedMesh) -> Vec<[DVec3; 3]> {
     mesh.faces.iter().map(|face| face.map(corner)).collect()
 }
 
-/// Converts a file, and holds what is read of the GLB against what is read of the file; what is said of the GLB.
+/// Converts a file, and compares the model read from the GLB with the one read from the file; returns the report about
+/// the GLB.
 #[track_caller]
 fn comes_back(name: &str, text: &str) -> (Model, ModelReference) {
     let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! DXF, of text and binary.
+//! DXF, as text and binary.
 
 use super::building::*;
 use glam::DVec3;

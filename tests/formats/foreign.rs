@@ -1,4 +1,4 @@
-//! Files of programs that are known and not read, and the rules that all formats keep.
+//! Files of known programs that cannot be read, and the rules that all formats follow.
 
 use super::building::*;
 use gnomon::formats::FORMATS;
@@ -82,7 +82,8 @@ fn files_that_go_with_a_model_name_it() {
     assert!(hint("dem.prj").contains("open dem.asc"), "{}", hint("dem.prj"));
 }
 
-/// A file that is neither a model nor a site is told as that, and one that is meant as a site by what is wrong in it.
+/// A file that is neither a model nor a site is reported as such; for one that is meant as a site, the error in it is
+/// reported.
 #[test]
 fn what_is_neither_site_nor_model_is_told() {
     let folder = tempfile::tempdir().unwrap();

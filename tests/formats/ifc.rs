@@ -1,4 +1,4 @@
-//! IFC: where a file's shapes stand, what they are called, and what is said of the rest.
+//! IFC: positions and names of shapes, and what is said about everything else.
 
 mod archive;
 mod hostile;

@@ -1,4 +1,5 @@
-//! What was read is kept: the same model comes back, of the very file and request, and of nothing that is damaged.
+//! The cache of models: the same model comes back for exactly the same file and request, and damaged entries are not
+//! used.
 
 use crate::shared::program::{names, site};
 use glam::DVec3;
@@ -11,7 +12,7 @@ use std::fs;
 use std::path::Path;
 use std::time::{Duration, SystemTime};
 
-/// A model of which every field says something.
+/// A model in which every field has a value.
 fn full() -> Model {
     let part = |name: &str, at: f64| Part {
         name: name.to_owned(),

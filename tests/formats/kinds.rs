@@ -1,4 +1,4 @@
-//! What a reader says of its parts, and of what it left out, reaches whoever asks.
+//! What a reader says about parts, and about what it left out, is available everywhere.
 
 use crate::shared::program::{PLACE, STUDY, site};
 use crate::shared::said;

@@ -1,4 +1,4 @@
-//! Faces with more corners than ears are clipped of: lakes, and what winds or has spikes.
+//! Faces with too many corners for ear clipping: lakes, spirals and spikes.
 
 use super::building::{left_out, read_bytes, triangles};
 use gnomon::formats::Model;

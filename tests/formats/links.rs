@@ -1,4 +1,4 @@
-//! A link in a model's folder is no way out of it: what a model names is read only where it truly lies there.
+//! A link does not lead out of a model's folder: a file that a model names is read only if it is really inside.
 
 use base64::Engine as _;
 use gnomon::formats::{self, Model, ReadOptions};

@@ -1,6 +1,6 @@
-//! A thousand mutations of a small file of each format: no reader panics, hangs or takes all memory.
+//! A thousand mutations of a small file of each format: no reader panics, hangs or uses up all memory.
 //!
-//! A format's own test calls [`survives`] with the smallest file that has all that its reader knows, or mutates files of
+//! The test of a format calls [`survives`] with the smallest file that has everything its reader knows, or mutates files of
 //! its own, which it reads by [`read_within_memory`].
 
 use super::apart::apart;
@@ -13,7 +13,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 const MUTATIONS: u64 = 1000;
-/// Each so many is also read in a process of its own, which is given up where it takes too much.
+/// One in this many is also read in a separate process, which is given up where it takes too much.
 const WATCHED: u64 = 40;
 const MOST_TIME: Duration = Duration::from_secs(10);
 const MOST_MEMORY: u64 = 1 << 30;
@@ -103,7 +103,7 @@ pub(crate) fn read_watched(file: &Path) {
     }
 }
 
-/// Holds a reader to all mutations of a file; how many were read as models, and how many errors there were.
+/// Runs a reader on all mutations of a file; returns how many were read as models, and how many gave errors.
 pub(super) fn survives(ending: &str, bytes: &[u8]) -> [usize; 2] {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join(format!("model.{ending}"));

@@ -88,7 +88,7 @@ fn a_part_is_a_group_and_a_material_and_glass_is_told() {
     assert!(named.contains(&"all mine.mtl".into()) && named.contains(&"leaf.png".into()), "{named:?}");
 }
 
-/// A library outside of the model's folder is not read, whatever it says.
+/// A material library outside the model's folder is not read.
 #[test]
 fn libraries_elsewhere_are_not_read() {
     let folder = tempfile::tempdir().unwrap();
@@ -120,7 +120,7 @@ fn what_is_wrong_is_told_with_its_line() {
     assert!(model.notes[0].to_string().contains("line 2: `3.1+e2`"), "{:?}", model.notes);
 }
 
-/// A star that crosses itself has no right answer, which is said.
+/// A star that crosses itself has no correct result, and a note says so.
 #[test]
 fn polygons_that_cross_themselves_are_told() {
     let star = "v 0 0 0\nv 4 4 0\nv 0 4 0\nv 4 0 0\nv 2 6 0\nf 1 2 3 4 5\n";

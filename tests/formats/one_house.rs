@@ -1,4 +1,4 @@
-//! One house, which each format has in its own units, axes and coordinates: its masks are one, cell for cell.
+//! One house, which each format has in its own units, axes and coordinates: the masks of all are equal, cell for cell.
 
 use super::building::indexed;
 use glam::{DVec3, dvec3};
@@ -184,7 +184,7 @@ fn geojson() -> String {
     json!({"type": "FeatureCollection", "features": [feature(&PLAN, HIGH_M), feature(&wing, eaves)]}).to_string()
 }
 
-/// The masks of what stands there, one a sun.
+/// The masks of the site, one per sun.
 fn masks(mesh: &Mesh) -> Vec<Vec<u8>> {
     let scene = Scene { casters: mesh.clone(), receivers: mesh.clone(), ground: 0.0 };
     let mut technique = RayCast::new(scene, View::Plan(GRID), None);
@@ -203,7 +203,7 @@ fn expected(gable: &[[f64; 2]], to_file: fn(DVec3) -> DVec3) -> Vec<Vec<u8>> {
     masks(&Mesh::build(vec![part]).expect("a mesh"))
 }
 
-/// How many cells a file's masks have otherwise than those of the house.
+/// In how many cells a file's masks differ from those of the house.
 fn differing(name: &str, text: &str, keys: &str, wanted: &[Vec<u8>]) -> usize {
     let folder = tempfile::tempdir().expect("a folder");
     let site = format!(

@@ -1,4 +1,4 @@
-//! PLY, of text and of numbers of either end.
+//! PLY, as text and as binary in either byte order.
 
 use super::building::*;
 use gnomon::formats::Up;

@@ -1,4 +1,4 @@
-//! STL, of text and of numbers.
+//! STL, as text and binary.
 
 use super::building::*;
 use gnomon::formats::Up;

@@ -1,4 +1,4 @@
-//! Terrain: rasters are thinned within what is asked, and every form of it lies where its file says.
+//! Terrain: rasters are simplified within the requested error, and each format is placed where its file says.
 
 use super::mutations::survives;
 use crate::shared::memory::CountedThread;
@@ -414,7 +414,7 @@ fn rasters_beyond_the_file_are_refused() {
     assert!(told.contains("has 50000000 × 1 heights, which is a strip"), "{told}");
 }
 
-/// Files in which numbers were turned over: none takes long or all memory, and none ends the program.
+/// Files with flipped numbers: none takes long or all memory, and none crashes the program.
 #[test]
 fn mutations_end_well() {
     let tif = geotiff(&Tags { keys: &METRES, no_data: Some("-1"), rows_per_strip: 9 }, |height| {

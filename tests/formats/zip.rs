@@ -1,4 +1,4 @@
-//! A writer of zip archives, as small as it can be.
+//! A minimal writer of zip archives.
 
 use flate2::Compression;
 use flate2::write::DeflateEncoder;

@@ -1,5 +1,5 @@
-//! Rays side by side and in beams answer as the plain caster does, and as every face asked one by one, to the bit, with
-//! whatever instructions the machine has.
+//! Rays in packets and in beams give the same results as the plain caster and as testing every face, to the bit, with
+//! each instruction set that the machine has.
 
 use super::{part, soup, sphere};
 use glam::{DVec3, dvec3};
@@ -7,7 +7,7 @@ use gnomon::mesh::{Mesh, Part};
 use gnomon::shadow::rays::{PlainCaster, RayCaster, Shear, SimdLevel};
 use proptest::prelude::*;
 
-/// What is said of some parallel rays, whoever says it: each one's nearest face, and how far it is.
+/// A caster's result for some parallel rays: the nearest face of each, and its distance.
 type Hits = Vec<Option<(u32, f64)>>;
 
 fn plain(mesh: &Mesh, reach: f64, origins: &[DVec3], direction: DVec3) -> Hits {
@@ -20,7 +20,7 @@ fn plain(mesh: &Mesh, reach: f64, origins: &[DVec3], direction: DVec3) -> Hits {
     origins.iter().map(hit).collect()
 }
 
-/// In which rays a caster does not say what is expected, asked in all four ways.
+/// The rays for which a caster's result differs from the expected one, with all four kinds of queries.
 fn wrong(caster: &RayCaster, origins: &[DVec3], direction: DVec3, expected: &Hits) -> Vec<String> {
     let shear = Shear::along(direction);
     let mut wrong = Vec::new();
@@ -45,7 +45,7 @@ fn wrong(caster: &RayCaster, origins: &[DVec3], direction: DVec3, expected: &Hit
     wrong
 }
 
-/// All levels say what the plain caster says; returns how many rays hit, and how many pass.
+/// All instruction sets give the result of the plain caster; returns how many rays hit, and how many miss.
 fn agree(mesh: &Mesh, reach: f64, origins: &[DVec3], direction: DVec3) -> [usize; 2] {
     let expected = plain(mesh, reach, origins, direction);
     for level in SimdLevel::all() {
@@ -220,7 +220,7 @@ proptest! {
         agree(&mesh, 100.0, &origins, direction);
     }
 
-    /// Every face asked one by one: no tree may leave out what no rounding could have left out.
+    /// Every face tested one by one: no tree may exclude a face that rounding cannot exclude.
     #[test]
     fn a_hair_beside_edges(
         corners in prop::array::uniform3(prop::array::uniform3(-1.0..1.0)),

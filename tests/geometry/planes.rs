@@ -1,4 +1,4 @@
-//! What lies in one plane has one plane to the bit; what is curved keeps its own.
+//! Coplanar faces get the same plane to the bit; faces of curved surfaces keep their own.
 
 use super::part;
 use glam::{DQuat, DVec3, DVec4, dvec3};

@@ -1,4 +1,4 @@
-//! The ray caster: no ray slips through a shared edge, and the nearest face is the nearest.
+//! The ray caster: no ray slips through a shared edge, and the nearest face is found.
 
 use super::{part, soup, sphere};
 use crate::shared::scenes::stack;
@@ -15,7 +15,7 @@ fn targets(mesh: &Mesh) -> Vec<DVec3> {
     vertices.chain(mesh.edges.iter().flat_map(on_edge)).collect()
 }
 
-/// How many of the rays from a point to the targets pass the mesh by, asked in all three ways.
+/// How many of the rays from a point to the targets miss the mesh, with all three kinds of queries.
 fn passes(mesh: &Mesh, from: DVec3) -> usize {
     let caster = RayCaster::new(mesh, 100.0);
     let missed = |&&target: &&DVec3| {

@@ -1,4 +1,4 @@
-//! What is said of a mesh: open, crowded, flipped, degenerate, duplicate.
+//! The defects of a mesh: open, crowded, flipped, degenerate, duplicate.
 
 use super::{part, sphere};
 use crate::shared::scenes::cuboid;

@@ -1,4 +1,4 @@
-//! Silhouettes against the sum of directions written plainly, and volumes that close.
+//! Silhouettes against a simple sum of directions, and volumes that close.
 
 use super::{light, modelled, soup};
 use crate::shared::scenes::cuboid;
@@ -11,7 +11,7 @@ use proptest::prelude::*;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::hash::Hash;
 
-/// Edges with how often they are run along less how often against; those that cancel are left out.
+/// Edges with their directed count, forwards minus backwards; those that cancel are left out.
 pub(crate) fn sums<V: Copy + Ord + Hash>(edges: impl IntoIterator<Item = [V; 2]>) -> BTreeMap<[V; 2], i32> {
     let mut sums: HashMap<[V; 2], i32> = HashMap::new();
     for [from, to] in edges {
@@ -49,7 +49,7 @@ const KINDS: [ProcessorFinder; 5] = [
     ProcessorFinder::Hextree { depth: hextree::DEEPEST },
 ];
 
-/// Whether two silhouettes hold the same edges, direction for direction and as often.
+/// Whether two silhouettes have the same edges with the same directions and multiplicities.
 fn equal(one: &[DirectedEdge], other: &[DirectedEdge]) -> bool {
     let sorted = |edges: &[DirectedEdge]| {
         let mut edges = edges.to_vec();
@@ -59,13 +59,13 @@ fn equal(one: &[DirectedEdge], other: &[DirectedEdge]) -> bool {
     sorted(one) == sorted(other)
 }
 
-/// Whether an edge of multiplicity ±n stands n times in a row.
+/// Whether an edge of multiplicity ±n is listed n times in a row.
 fn in_rows(edges: &[DirectedEdge]) -> bool {
     let distinct: HashSet<_> = edges.iter().collect();
     edges.chunk_by(|a, b| a == b).count() == distinct.len()
 }
 
-/// Holds all finders against brute force, each asked for several lights in turn.
+/// Compares all finders with brute force, each for several lights in turn.
 fn agree(name: &str, mesh: &Mesh, lights: &[DVec4]) {
     for kind in KINDS {
         let mut finder = kind.build(mesh);
@@ -80,7 +80,7 @@ fn agree(name: &str, mesh: &Mesh, lights: &[DVec4]) {
     }
 }
 
-/// Every vertex is left as often as it is reached.
+/// As many directed edges begin at each vertex as end there.
 fn balanced(edges: &[DirectedEdge]) -> bool {
     let mut balance: HashMap<u32, i32> = HashMap::new();
     for &[from, to] in edges {

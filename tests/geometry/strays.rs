@@ -1,4 +1,4 @@
-//! What lies far off: leftovers of a drawing change no bit of what stands at home.
+//! Stray geometry far away: leftovers of a drawing do not change one bit of the result at the place.
 
 use super::{part, unjoined};
 use crate::shared::scenes::{cuboid, joined};

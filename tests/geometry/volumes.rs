@@ -1,4 +1,4 @@
-//! The volume counts at every point the faces between it and the light, and no count is above its bound.
+//! At every point the volume counts the faces between it and the light, and no count exceeds its bound.
 
 use super::{light, modelled, soup, sphere};
 use crate::shared::scenes::{cuboid, stack};
@@ -42,7 +42,7 @@ fn between(caster: &RayCaster, light: DVec4, point: DVec3) -> usize {
     caster.crossings(point, towards) - caster.crossings(light.truncate(), towards)
 }
 
-/// Holds the winding against the rays at some points, and counts how many have any face above them.
+/// Compares the winding number with rays at some points, and counts how many have any face above them.
 fn check(name: &str, mesh: &Mesh, light: DVec4, points: &[DVec3]) -> usize {
     let caster = RayCaster::new(mesh, 100.0);
     let volume = Volume::find(mesh, &mut BruteForce, light, true);
@@ -92,7 +92,7 @@ fn a_volume_that_lacks_something_counts_wrongly() {
     }
 }
 
-/// The bound is no less than any count that rays find; how much larger it is than the greatest.
+/// The bound is at least any count that rays find. Returns how much larger it is than the greatest.
 fn hold_bound(name: &str, mesh: &Mesh, to_sun: DVec3, points: &[DVec3]) -> (u32, u32) {
     let caster = RayCaster::new(mesh, 1000.0);
     let most = points.iter().map(|&point| caster.crossings(point, to_sun)).max().unwrap_or(0) as u32;

@@ -1,4 +1,4 @@
-//! Corners that lie on each other become one vertex, within a part and never across.
+//! Coincident corners become one vertex within a part, but never across parts.
 
 use super::{part, sphere, unjoined};
 use crate::shared::scenes::cuboid;
@@ -11,7 +11,7 @@ fn block() -> Part {
     cuboid("block", dvec3(-5.0, -4.0, 0.0), dvec3(5.0, 4.0, 9.0))
 }
 
-/// The part with each corner moved, every one by another way of the same length.
+/// The part with each corner moved by the same distance, but each in a different direction.
 fn shaken(part: &Part, by: f64) -> Part {
     let moved = |(at, &position): (usize, &DVec3)| {
         let (sin, cos) = (at as f64 * 2.4).sin_cos();

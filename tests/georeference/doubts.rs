@@ -1,4 +1,4 @@
-//! What nobody meant, or nobody uses, is told.
+//! Messages about georeferences that are probably mistakes, or that are not used.
 
 use super::{
     LONG_LAT, PLACE, STUDY, UTM, anchored, corners, drawing, folder, load, map_anchor, on_map, one, sheet, site_anchor,
@@ -88,7 +88,7 @@ fn coordinates_like_a_maps_ask_for_crs_first() {
     assert!(told.contains("from their own zero") && told.contains("`crs = "), "{told}");
 }
 
-/// Where nobody writes the place's elevation it is a file's, so that its model stands beside those without heights.
+/// If the place's elevation is not given, it is that of a file, so that its model fits those without heights.
 #[test]
 fn an_elevation_that_nobody_wrote_is_a_files() {
     let place = "[place]\nlatitude = 49.100393626\nlongitude = 8.4365934\n";
@@ -106,7 +106,7 @@ fn an_elevation_that_nobody_wrote_is_a_files() {
     assert!(!told(&site).contains("the elevation of the place"), "{}", told(&site));
 }
 
-/// Without a site file there is no key to be named, and of several models that which is at fault is.
+/// Without a site file no key is named; with several models the wrong one is named.
 #[test]
 fn of_bare_models_the_one_at_fault_is_named() {
     let folder = folder("", &["near.glb", "far.glb"]);
@@ -198,7 +198,7 @@ fn a_map_that_contradicts_the_files_is_told() {
     }
 }
 
-/// A model that nobody has placed beside one whose file says the place stands there by chance.
+/// A model without a place, beside one whose file has a place, is positioned there by chance.
 #[test]
 fn a_model_without_a_place_beside_one_that_has_it_is_told() {
     let models = "[[model]]\npath = \"town.glb\"\n[[model]]\npath = \"house.glb\"\n";
@@ -223,7 +223,7 @@ fn a_model_without_a_place_beside_one_that_has_it_is_told() {
     assert_eq!(unplaced(models, town(), house()), None);
 }
 
-/// A map without a name says no place, and its north is held against the other one all the same.
+/// A map without a name gives no place, but its north is still compared with the other one.
 #[test]
 fn norths_are_compared_without_the_map() {
     let unnamed = |north_deg: f64| {
@@ -259,7 +259,7 @@ fn keys_without_a_use_are_told() {
     }
 }
 
-/// The content makes a model, where the name does not tell.
+/// A file whose name says nothing is recognised as a model by its content.
 #[test]
 fn a_model_without_an_ending_is_a_model() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -1,4 +1,4 @@
-//! What is said of where models stand: by whom, in which unit, and what is taken of it.
+//! What is reported about the position of models: its source, its unit, and which part of it is used.
 
 use super::*;
 use gnomon::site::ModelReference;
@@ -69,12 +69,12 @@ fn what_is_taken_stands_before_what_the_file_says() {
     assert_eq!(plain.stands.map(|point| (point.at.height_m, point.has_height)), Some((35.0, true)));
 }
 
-/// In the coordinates of a map that nobody names.
+/// In the coordinates of an unnamed map.
 fn drawn() -> Model {
     Model { coordinates: Coordinates::Local, unit_m: None, up: Up::Z, ..on_map("", GAUSS, 110.0) }
 }
 
-/// A fault of what the file says is the file's, and one of the key `crs` the key's.
+/// An error in the file's values names the file, and one in the key `crs` names the key.
 #[test]
 fn faults_are_said_of_who_says_it() {
     let of = |keys: &str, model: Model| one(keys, model).expect_err(keys).to_string();
@@ -98,7 +98,7 @@ fn faults_are_said_of_who_says_it() {
     assert_says(&beyond, &["house.glb: has 'sheet' at 1000000000, 2, where", "does not reach"]);
 }
 
-/// Who takes a unit that is not said, or two units, says so and names the key.
+/// If a unit is assumed, or if there are two units, a note says so and names the key.
 #[test]
 fn units_that_are_taken_are_told() {
     let place = "[place]\nlatitude = 40.7484\nlongitude = -73.9857\nelevation = 0.0\n";
@@ -135,7 +135,7 @@ fn units_that_are_taken_are_told() {
     assert!(!said(&found.notes).concat().contains("has heights in units"), "{:?}", found.notes);
 }
 
-/// Far from the place true north is another one: note and check say one number, and of what it is made.
+/// Far from the place true north has another direction: the note and `check` give the same number and its parts.
 #[test]
 fn north_is_one_number_wherever_the_model_stands() {
     let west = "[place]\nlatitude = 49.1\nlongitude = 8.2\nelevation = 110.0\n";
@@ -166,7 +166,7 @@ fn north_is_one_number_wherever_the_model_stands() {
     }
 }
 
-/// The elevation that a file says is written with its source, and the same models serve.
+/// The elevation of a file is written with its source, and the same models are reused.
 #[test]
 fn an_elevation_of_a_file_is_written_with_its_source() {
     let site = format!("[place]\nlatitude = 49.1\nlongitude = 8.4366\n{MODEL}");

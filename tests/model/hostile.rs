@@ -1,4 +1,4 @@
-//! Files that were made to hurt: no panic, no hang, no memory that the file does not pay for.
+//! Malicious files: no panic, no hang, and no more memory than the size of the file justifies.
 
 use super::*;
 use proptest::prelude::*;
@@ -58,7 +58,7 @@ proptest! {
         }
     }
 
-    /// Digits are where sizes and indices are; the JSON stays JSON, so the checks behind it are met.
+    /// Only digits are changed, which are sizes and indices; so the JSON stays valid and the later checks are reached.
     #[test]
     fn changed_digits_never_panic(changes in prop::collection::vec((any::<prop::sample::Index>(), b'0'..=b'9'), 1..5)) {
         let mut bytes = rich().glb();
@@ -71,7 +71,7 @@ proptest! {
     }
 }
 
-/// The model that is broken is read as long as it is whole.
+/// The model can be read before it is damaged.
 #[test]
 fn a_rich_model_is_read() {
     let parts = rich().load().unwrap();

@@ -1,4 +1,4 @@
-//! Components and the names by which a site file may mean them.
+//! Components, and the names by which a site file can refer to them.
 
 use super::*;
 

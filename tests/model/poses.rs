@@ -1,8 +1,8 @@
-//! Morph targets and skins where no animation moves them, as glTF 2.0 has it (3.7.2.2 and 3.7.3).
+//! Morph targets and skins without animation, as in glTF 2.0, sections 3.7.2.2 and 3.7.3.
 
 use super::*;
 
-/// A tower of 10 × 10 m on the ground, so many units high.
+/// A tower of 10 × 10 m on the ground, with a height in units.
 pub(crate) fn tower(height: f32) -> Model {
     let mut model = Model::new();
     let corner = |i: usize| [(i & 1) as f32 * 10.0 - 5.0, (i >> 2) as f32 * height, (i >> 1 & 1) as f32 * -10.0 + 5.0];
@@ -23,7 +23,7 @@ fn bounds(part: &Part) -> [[f64; 3]; 2] {
     [round(low), round(high)]
 }
 
-/// Of a tower on the origin, so high.
+/// The same box of a tower at the origin with this height.
 fn standing(height: f64) -> [[f64; 3]; 2] {
     [[-5.0, -5.0, 0.0], [5.0, 5.0, height]]
 }
@@ -125,7 +125,7 @@ fn a_skin_stands_as_its_joints_do() {
     assert_eq!(bounds(&model.part()), [[5.0, -2.0, 2.0], [15.0, 8.0, 32.0]]);
 }
 
-/// Nothing is bound to the skin, so the mesh stands where its node does, be the skin ever so broken.
+/// Nothing is bound to the skin, so the mesh stands where its node does, however broken the skin is.
 #[test]
 fn a_mesh_without_joints_has_no_skin() {
     let mut model = skinned(1.0, json!({"scale": [3, 3, 3]}));
@@ -147,7 +147,7 @@ fn a_skin_is_placed_as_its_model_is() {
     assert_eq!(bounds(part), [[90.0, 190.0, 5.0], [110.0, 210.0, 65.0]]);
 }
 
-/// A joint that stands 30 m up bears the tower's top, one that was turned since the mesh was bound the rest.
+/// A joint 30 m up moves the tower's top; one that was turned after the mesh was bound moves the rest.
 #[test]
 fn inverse_bind_matrices_and_weights_blend() {
     let mut model = skinned(1.0, json!({"translation": [0, 10, 0]}));
@@ -302,7 +302,7 @@ fn joints_that_do_not_fit_are_refused() {
     with(&instanced).refused(&["node 0", "a skin and instances"]);
 }
 
-/// What costs no memory may still cost time without end.
+/// A file that needs no memory may still need endless time.
 #[test]
 fn moves_are_counted_before_they_are_made() {
     let mut model = Model::triangle();

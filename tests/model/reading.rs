@@ -1,4 +1,4 @@
-//! What is read, and where it stands.
+//! What is read, and where it is placed.
 
 use super::*;
 use gnomon::formats::Up;

@@ -1,4 +1,4 @@
-//! What is refused, and whether the error names the thing and the way out.
+//! What is refused, and whether the error names the cause and a way out.
 
 use super::*;
 

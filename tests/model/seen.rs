@@ -1,4 +1,4 @@
-//! What is there: hidden nodes, scenes, materials that light passes; and what is told of them.
+//! Visibility: hidden nodes, scenes, materials that let light pass, and the notes about them.
 
 use super::*;
 use crate::shared::said;
@@ -45,7 +45,7 @@ fn hidden_nodes_are_not_there() {
     assert!(read.notes.is_empty());
 }
 
-/// A node that is hidden hides all that is below it, whatever that says of itself.
+/// A hidden node hides everything below it, even nodes that say they are visible.
 #[test]
 fn hiding_is_inherited() {
     let mut model = Model::triangle();
@@ -181,7 +181,7 @@ fn colours_of_vertices_make_a_material_fade() {
     }
 }
 
-/// What says nothing of shapes may be required, broken or missing.
+/// Everything that does not affect shapes may be required, broken or missing.
 #[test]
 fn harmless_extensions_and_textures_are_read_past() {
     let mut model = Model::triangle();
@@ -201,7 +201,7 @@ fn harmless_extensions_and_textures_are_read_past() {
     model.refused(&["AGI_articulations", "export it without"]);
 }
 
-/// Names come in one normal form, however the file composes its letters.
+/// Names are in one normal form, however the file composes letters.
 #[test]
 fn names_are_composed() {
     let mut model = Model::triangle();

@@ -1,4 +1,4 @@
-//! The command and the site file's `[[probe]]`.
+//! Probes on the command line and in the site file's `[[probe]]`.
 
 use crate::shared::program::{PLACE, done, fails, site};
 use serde_json::{Value, json};

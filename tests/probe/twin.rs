@@ -1,4 +1,4 @@
-//! The search against its slow twin, a ray at each second: the same intervals, and the same bounds.
+//! The search against a slow reference with a ray at each second: the same intervals with the same bounds.
 
 use super::{at, day, found, place, probing};
 use crate::shared::scenes::{cuboid, joined, sheet, small};
@@ -16,7 +16,7 @@ fn all(sunlight: &Sunlight) -> Vec<&Vec<Interval>> {
     sunlight.probes.iter().flat_map(|probed| &probed.days).collect()
 }
 
-/// Expects the same of both, and tells how many intervals there are.
+/// Expects the same of both, and returns the number of intervals.
 fn same_as_twin(asked: &ProbeSite, what: &str) -> usize {
     let (found, twin) = (found(asked), probe_by_grid(asked, 1).unwrap());
     for (one, other) in found.days.iter().zip(&twin.days) {
@@ -104,7 +104,8 @@ fn what_lasts_two_seconds_is_found() {
     }
 }
 
-/// Points in the plane of faces, at their corners and on their edges: where the polynomials say nothing the ray decides.
+/// Points in the plane of faces, at their corners and on their edges: where the polynomials are undecided, the ray
+/// decides.
 #[test]
 fn points_in_the_plane_of_faces() {
     let paris = super::paris();
@@ -133,7 +134,7 @@ fn the_samples_sites() {
     }
 }
 
-/// Rays and polynomials never disagree: nothing is asked second by second.
+/// Rays and polynomials never disagree: no day is tested second by second.
 #[test]
 fn no_day_is_distrusted() {
     let paris = super::paris();

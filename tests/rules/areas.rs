@@ -1,11 +1,11 @@
-//! Parts of areas, on either side of their limits and of what is known of them.
+//! Shares of areas, on either side of their limits, and with parts that are unknown.
 
 use super::{calendar, rule};
 use gnomon::rules::{
     AreaLight, Excuse, PartMet, Quantity, ResolvedRule, Rule, Ruling, ShadowLoad, Verdict, built_in_text, total_secs,
 };
 
-/// The ruling on an area of which so much keeps each criterion, known to an error.
+/// The ruling on an area, of which a given share meets each criterion, within an error.
 fn part(rule: &ResolvedRule, area_m2: f64, now_m2: f64, before_m2: Option<f64>, error_m2: f64) -> Ruling {
     let days = calendar(rule);
     let met = vec![Some(PartMet { now_m2, before_m2, error_m2 }); rule.criteria.len()];
@@ -50,7 +50,7 @@ fn the_lesser_of_a_share_and_square_metres() {
     assert_eq!(limit, Some(Quantity::AreaM2(40.0)));
 }
 
-/// A number that is closer to its limit than it is known is neither kept nor missed.
+/// A number that differs from its limit by less than its error neither passes nor fails.
 #[test]
 fn closer_than_its_error_says_so() {
     let victoria = rule("au-vic-b21", &[]);

@@ -4,10 +4,10 @@ use super::{calendar, hours, lit, lit_in, minutes, rule, spells};
 use gnomon::rules::{BUILT_IN, DayLight, DwellingShare, RULE_KEYS, Rule, Verdict, built_in_rules};
 use std::path::Path;
 
-/// Options as they are said.
+/// Options as given on the command line.
 type Given = &'static [(&'static str, &'static str)];
 
-/// Rules of windows and façades that ask for so much time in all, and what must be said.
+/// Rules of windows and façades that demand a total time, with their required options.
 const AT_LEAST: &[(&str, Given, i64)] = &[
     ("eu-en-17037-sunlight", &[("above", "DE")], 5400),
     ("eu-en-17037-sunlight", &[("above", "13"), ("date", "02-14")], 5400),
@@ -119,7 +119,7 @@ fn zurich_counts_shadow_on_both_days() {
     assert_eq!(super::lit(&two, hours(7) - 1, None).verdict, Verdict::Fail);
 }
 
-/// In all rules of dwellings one room is enough, but in Russia's larger ones.
+/// In all rules of dwellings one room is enough, except for larger dwellings in Russia.
 #[test]
 fn rules_of_dwellings() {
     let with_rooms: Vec<&str> = BUILT_IN.iter().map(|(id, _)| *id).filter(|id| sample(id).dwelling.is_some()).collect();

@@ -24,7 +24,7 @@ fn spells_are_merged_cut_and_taken_off() {
     assert!(common(&messy, &[]).is_empty() && without(&messy, &[spell(-5, 60)]).is_empty());
 }
 
-/// Second by second, the sets are what they say.
+/// Tests the sets second by second.
 #[test]
 fn sets_agree_with_single_seconds() {
     let mut seed = 7_u64;

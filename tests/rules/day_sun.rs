@@ -1,4 +1,4 @@
-//! When the sun counts for a receiver before which nothing stands, against spherical trigonometry.
+//! When the sun counts for a receiver with a free horizon, against spherical trigonometry.
 
 use super::{hours, place, rule};
 use gnomon::glam::DVec3;
@@ -42,7 +42,7 @@ fn a_sun_above_an_altitude() {
     assert!(sun.open(&SunCuts { above_deg: 30.0, ..SunCuts::default() }, None).is_empty());
 }
 
-/// Its ends are those that every second says.
+/// Its ends equal those of a test of every second.
 #[test]
 fn open_sun_is_right_to_the_second() {
     let at = place(39.9, 116.4, "Asia/Shanghai");

@@ -1,4 +1,4 @@
-//! Where a rule is found: beside the site, or built in.
+//! Where rules are found: beside the site, or built in.
 
 use gnomon::rules::{RuleError, built_in_text, rule_for_site};
 use std::fs;

@@ -1,4 +1,4 @@
-//! Dwellings by their rooms, and houses by their dwellings.
+//! Judging dwellings by their rooms, and houses by their dwellings.
 
 use super::rule;
 use gnomon::rules::{DwellingSun, Quantity, ResolvedRule, RoomRuling, Rule, Verdict, built_in_text};
@@ -43,7 +43,7 @@ fn a_third_of_the_floor_area() {
     assert!(of(f64::NAN, 20.0).is_err());
 }
 
-/// Apartments of which so many have sun in both uses, so many in one, and the rest none.
+/// Apartments: how many have sun in both uses, how many in one; the rest have none.
 fn house(both: usize, one: usize, none: usize) -> Vec<Vec<DwellingSun>> {
     let dwelling = |living, open| DwellingSun {
         name: "apartment".to_owned(),

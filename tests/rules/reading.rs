@@ -1,10 +1,10 @@
-//! How rules are read, and what is refused.
+//! Reading rules, and what is refused.
 
 use gnomon::rules::{
     BUILT_IN, Confidence, DayName, Demand, OptionValue, Rule, RuleError, built_in_rules, duration_text,
 };
 
-/// A small rule, of which tests change a part.
+/// A small rule; tests change parts of it.
 const SMALL: &str = r#"
 [rule]
 id = "town"
@@ -213,7 +213,7 @@ fn values_that_cannot_be_are_errors() {
     }
 }
 
-/// What a mistake in an option's value breaks is found before anybody chooses that value.
+/// An error that only one value of an option causes is found before anybody chooses that value.
 #[test]
 fn mistakes_do_not_wait_for_a_choice() {
     let broken = with("one_of = [\"1h\", \"2h\"]", "one_of = [\"1h\", \"2h\"]\nwords = [\"much\"]");

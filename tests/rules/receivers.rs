@@ -1,4 +1,4 @@
-//! Which sun counts, and where receivers lie.
+//! Which sunlight counts, and where receivers are.
 
 use super::{place, rule};
 use chrono::NaiveDate;

@@ -1,4 +1,4 @@
-//! The sun's year and its own clock, against published times.
+//! Equinoxes, solstices and solar time against published times.
 
 use super::place;
 use chrono::{DateTime, NaiveDate, NaiveTime, TimeDelta, Utc};

@@ -1,9 +1,9 @@
-//! How days and criteria become one verdict.
+//! How days and criteria are combined to one verdict.
 
 use super::{calendar, hours, lit, lit_in, minutes, rule, spells};
 use gnomon::rules::{DayLight, Excuse, Quantity, ResolvedRule, RuleDay, Ruling, Verdict};
 
-/// The ruling over days, each of which has one spell of sun of so many seconds.
+/// The ruling over days, each with one spell of sun of the given seconds.
 fn ruling_of(rule: &ResolvedRule, days: &[RuleDay], secs: impl Fn(usize) -> i64) -> Ruling {
     let lit: Vec<_> = days.iter().enumerate().map(|(at, day)| spells(day, &[secs(at)])).collect();
     let lights: Vec<_> = days
@@ -26,7 +26,7 @@ fn verdicts_of_many_are_one() {
     assert_eq!(Verdict::any([Report, Fail]), Fail);
 }
 
-/// Every day must pass; the worst decides, and the others are told.
+/// Every day must pass; the worst decides, and the others are reported.
 #[test]
 fn the_worst_day_of_a_range_decides() {
     let light = rule("nl-tno-light", &[]);
@@ -65,7 +65,7 @@ fn the_best_day_of_a_range_decides() {
     }
 }
 
-/// Where all days must pass the grade is that of the worst.
+/// If all days must pass, the grade is that of the worst.
 #[test]
 fn the_grade_of_several_days_is_the_lowest() {
     let text = gnomon::rules::built_in_text("eu-en-17037-sunlight")
@@ -85,7 +85,7 @@ fn the_grade_of_several_days_is_the_lowest() {
     assert_eq!(grade(minutes(89), hours(5)), (Verdict::Fail, None));
 }
 
-/// Days with demands of their own: the equinox's are not the winter's.
+/// Days with different limits: those of the equinox are not those of winter.
 #[test]
 fn criteria_are_of_their_own_days() {
     let din = rule("de-din-5034-1", &[]);
@@ -116,7 +116,7 @@ fn a_lawful_body_excuses_as_much_shadow() {
     assert_eq!(ruling(hours(4) + 1, Some(hours(4))).verdict, Verdict::Fail);
 }
 
-/// New shadow is told, and whether all sun goes for longer than ten minutes.
+/// New shadow is reported, and whether it takes all sun for longer than ten minutes.
 #[test]
 fn a_report_tells_and_does_not_judge() {
     let nyc = rule("us-nyc-ceqr-shadows", &[]);
@@ -139,7 +139,7 @@ fn a_report_tells_and_does_not_judge() {
     assert!(nyc.judge_time(None, &[alone]).is_err_and(|error| error.to_string().contains("state before")));
 }
 
-/// The night is no shadow, nor is the time when the sun is behind a façade.
+/// Neither the night nor the time with the sun behind a façade counts as shadow.
 #[test]
 fn shadow_is_counted_while_the_sun_would_shine() {
     let zurich = rule("ch-zh-abv", &[]);

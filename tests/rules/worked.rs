@@ -1,4 +1,4 @@
-//! Rules on shadows whose length has a closed form, with the sun of SPA.
+//! Rules about shadows whose length has a closed form, with the sun of SPA.
 
 use super::{hours, place, rule};
 use chrono::DateTime;
@@ -29,8 +29,9 @@ fn hours_of(ruling: &Ruling) -> f64 {
     }
 }
 
-/// How many hours a point has sun to the north of an endless wall that runs east and west, at so many times its height: at
-/// the hour angle H the shadow reaches (cos δ cos H sin φ − sin δ cos φ) / (sin φ sin δ + cos φ cos δ cos H) heights.
+/// The hours of sun of a point to the north of an infinite wall that runs east and west, at a distance in multiples of
+/// its height: at the hour angle H the shadow reaches (cos δ cos H sin φ − sin δ cos φ) / (sin φ sin δ + cos φ cos δ
+/// cos H) heights.
 fn hours_behind_a_wall(latitude_deg: f64, declination_deg: f64, distance: f64) -> f64 {
     let (sin_lat, cos_lat) = latitude_deg.to_radians().sin_cos();
     let (sin_dec, cos_dec) = declination_deg.to_radians().sin_cos();

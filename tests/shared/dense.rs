@@ -1,5 +1,5 @@
-//! Scenes for the techniques: two whose thin casters throw their volumes over each other a hundredfold, and a smooth
-//! body with hardly any silhouette.
+//! Scenes for the techniques: two with thin casters, where a hundred volumes overlap, and a smooth body with a very
+//! short silhouette.
 
 use glam::{DVec2, DVec3, dvec3};
 use gnomon::mesh::Part;
@@ -8,14 +8,14 @@ use std::f64::consts::{PI, TAU};
 
 /// A scene with its camera and its sun; the ground lies at 0.
 pub(crate) struct Dense {
-    /// What stands there; everything casts and receives.
+    /// The mesh; everything casts and receives.
     pub(crate) parts: Vec<Part>,
     pub(crate) camera: Camera,
     pub(crate) to_sun: DVec3,
 }
 
-/// A room of 8 × 7 × 4 m without a roof: two walls, and bars before its open sides and over it, so many metres apart: 0.4
-/// for an overdraw of 109, 0.85 for one of 52. The camera stands in it, and so in the volumes.
+/// A room of 8 × 7 × 4 m without a roof: two walls, and bars in front of its open sides and above it. Their distance in
+/// metres is given: 0.4 for an overdraw of 109, 0.85 for one of 52. The camera is in the room, and so in the volumes.
 pub(crate) fn cage(pitch: f64) -> Dense {
     let (low, high) = (dvec3(-4.0, -3.5, 0.0), dvec3(4.0, 3.5, 4.0));
     let floor = cuboid("floor", low, dvec3(high.x, high.y, 0.05));

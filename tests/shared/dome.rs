@@ -1,4 +1,4 @@
-//! A finely curved dome of 200,000 triangles, no two of them in one plane: silhouettes are few, and edges many.
+//! A finely curved dome of 200,000 triangles without coplanar ones: many edges, few of them silhouettes.
 
 use glam::dvec3;
 use gnomon::mesh::Part;

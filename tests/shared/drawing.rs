@@ -1,4 +1,4 @@
-//! What a test draws with: the adapter, small plans, suns.
+//! What tests need for drawing: the adapter, small plans, suns.
 
 pub(crate) use super::dense::to_sun;
 use super::scenes::{cuboid, sheet};
@@ -10,7 +10,7 @@ use gnomon::shadow::Scene;
 use gnomon::view::{Grid, View};
 use std::sync::{Arc, OnceLock};
 
-/// The adapter for all tests. None is a failure, never a skip.
+/// The adapter for all tests. Without one, tests fail; they are never skipped.
 pub(crate) fn gpu() -> Arc<Gpu> {
     static GPU: OnceLock<Arc<Gpu>> = OnceLock::new();
     Arc::clone(GPU.get_or_init(|| Arc::new(Gpu::open().expect("the tests need a graphics adapter: run tests/run.sh"))))

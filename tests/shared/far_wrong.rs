@@ -1,5 +1,5 @@
-//! Cells that a shadow map gets wrong far from any shadow's edge: acne, and light between a shadow and its caster.
-//! Shared by the tests and the benchmark of the bias.
+//! Cells that a shadow map gets wrong far from any shadow edge: acne, and light between a shadow and its caster. Shared
+//! by the tests and the benchmark of the bias.
 
 use glam::DVec3;
 use gnomon::choice::Filter;
@@ -24,7 +24,7 @@ impl FarWrong {
         (self.lighter + self.darker) as f64 / self.cells as f64
     }
 
-    /// Adds a mask's, whose texels are so many cells large.
+    /// Adds those of a mask whose texels have this size in cells.
     pub(crate) fn add(&mut self, drawn: &Mask, truth: &Mask, texel_cells: f64) {
         let edges = Edges::of(truth);
         self.cells += truth.share.len();
@@ -40,8 +40,8 @@ impl FarWrong {
     }
 }
 
-/// A map of the plan over some suns, by its default bias or another. Texels are as large as they are across the rays: what a
-/// low sun makes of them on the ground is not allowed for.
+/// A map of the plan for some suns, with its default bias or another. The size of texels is measured across the rays,
+/// without their stretching on the ground by a low sun.
 pub(crate) fn far_wrong(
     gpu: &Arc<Gpu>,
     scene: &Scene,

@@ -1,4 +1,4 @@
-//! What several tests need: scenes, and what draws them; the program, and folders for it.
+//! What several tests need: scenes, drawing them, running the program, and folders.
 
 pub(crate) mod dense;
 pub(crate) mod dome;

@@ -1,4 +1,4 @@
-//! The program as its users drive it, folders for it, and what it leaves there.
+//! Runs the program as its users do, in folders of its own, and reads what it leaves there.
 
 use crate::model::{F32, Model, U16};
 use serde_json::{Value, json};
@@ -52,7 +52,7 @@ pub(crate) fn gnomon(folder: &Path, arguments: &str) -> Output {
     command(folder, arguments).output().unwrap()
 }
 
-/// Standard output of what must succeed.
+/// Standard output of a command that must succeed.
 pub(crate) fn done(folder: &Path, arguments: &str) -> String {
     let output = gnomon(folder, arguments);
     assert_eq!(output.status.code(), Some(0), "{arguments}: {}", stderr(&output));
@@ -63,7 +63,7 @@ pub(crate) fn stderr(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
-/// Expects a failure that is told in one line with these words.
+/// Expects a failure with a message of one line that contains these words.
 pub(crate) fn fails(folder: &Path, arguments: &str, status: i32, words: &[&str]) {
     let output = gnomon(folder, arguments);
     let told = stderr(&output);
@@ -83,12 +83,12 @@ pub(crate) fn names(folder: PathBuf) -> Vec<String> {
     names
 }
 
-/// How many pixels of a drawing are so.
+/// How many pixels of a drawing meet a condition.
 pub(crate) fn pixels(path: PathBuf, so: impl Fn([u8; 3]) -> bool) -> usize {
     image::open(path).unwrap().into_rgb8().pixels().filter(|pixel| so(pixel.0)).count()
 }
 
-/// All files of a folder but what took how long.
+/// All files of a folder, without timings.
 pub(crate) fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut found = BTreeMap::new();
     for entry in fs::read_dir(folder).unwrap() {
@@ -120,7 +120,7 @@ pub(crate) fn numberless(folder: &Path) -> Vec<String> {
     names
 }
 
-/// What the one study that was stopped in a folder keeps of its sums.
+/// The sums that the only stopped study in a folder has stored.
 pub(crate) fn left(folder: &Path) -> PathBuf {
     let is_it = |name: &String| name.starts_with("profile.") && name.ends_with(".unfinished") && !name.contains("sums");
     let found: Vec<String> = files(folder).into_keys().filter(is_it).collect();
@@ -128,7 +128,7 @@ pub(crate) fn left(folder: &Path) -> PathBuf {
     folder.join(&found[0])
 }
 
-/// Starts a study, stops it by Ctrl-C when it has told of a part of its work, and says what it told.
+/// Starts a study, stops it with Ctrl-C when it has reported some progress, and returns its output.
 #[cfg(unix)]
 pub(crate) fn stopped(folder: &Path, arguments: &str, when: &str) -> String {
     use std::io::{BufRead, BufReader, Write};

@@ -1,4 +1,4 @@
-//! Lamps and the sun's disc over a plate, against closed forms.
+//! Lamps and the sun's disc above a plate, against closed forms.
 
 use super::Scene;
 use crate::shared::dense::cuboid;

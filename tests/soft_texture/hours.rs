@@ -1,4 +1,4 @@
-//! Hours on patches: the study, on each machine and by each technique.
+//! Hours on patches: the study, on each machine and with each technique.
 
 use crate::shared::dense::cuboid;
 use glam::{DVec3, dvec3};

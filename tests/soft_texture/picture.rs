@@ -1,4 +1,4 @@
-//! A camera's picture by soft textures against rays to the same points of the sun's disc.
+//! A camera's picture with soft textures against rays to the same points of the sun's disc.
 
 use crate::shared::dense::{cuboid, prism, to_sun};
 use glam::{DVec3, dvec3};

@@ -1,4 +1,4 @@
-//! Small scenes: what passes through the receiver, what touches it, what is curved; and comparators that fail.
+//! Small scenes: casters that pass through the receiver, touch it, or are curved; and comparisons that must fail.
 
 use super::{Scene, differing, weighed};
 use crate::shared::dense::{cuboid, prism, to_sun};

@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
 
-/// A site's scene at so many metres, and three of its instants.
+/// A site's scene with texels of this size in metres, and three of its instants.
 fn site(name: &str, cell: f64) -> (Scene, Vec<Sample>) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("sites").join(name);
     let site = Site::load(&folder, &Overrides::default()).expect("a sample site");

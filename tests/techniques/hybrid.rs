@@ -1,4 +1,4 @@
-//! The hybrid: the stencil's own mask, but for what the map missed; and the count behind its mask.
+//! The hybrid: the mask equals that of the stencil, except for what the map missed; and the count behind its mask.
 
 use super::{draw, site};
 use crate::shared::drawing::{crossing, day, gpu, plan, scene_of, to_sun};
@@ -187,8 +187,8 @@ fn what_is_counted_lies_behind_the_mask_and_adds_up() {
     }
 }
 
-/// Bars and slits that are narrower and wider than a texel, seen from the sun. The four texels around a cell reach a texel
-/// across it in any direction, so that what is wider is met by one of them at least, but at its ends.
+/// Bars and slits that are narrower and wider than a texel, seen from the sun. The four texels around a cell cover at
+/// least a texel in any direction, so that at least one of them meets anything wider, except at its ends.
 #[test]
 fn the_map_misses_nothing_wider_than_its_texel() {
     let sun = to_sun(203.0, 52.0);

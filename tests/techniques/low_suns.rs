@@ -1,5 +1,5 @@
-//! Low suns in a town: shadows that are hundreds of kilometres long fall as those of noon do, and what an instant costs
-//! depends on what can reach the plan, and not on the town.
+//! Low suns in a town: shadows that are hundreds of kilometres long fall as correctly as those at noon, and the cost of
+//! an instant depends only on casters that can reach the plan.
 
 use super::plain_scan::scanned;
 use crate::shared::scenes::{cuboid, joined};
@@ -12,7 +12,7 @@ use gnomon::view::{Bits, Grid, Tile, View};
 
 const RECORD: &str = include_str!("../../docs/benchmarks/counts.md");
 
-/// So many blocks a side, 40 m apart, of heights from 6 to 24 m, and a few towers among them.
+/// A square of blocks, 40 m apart, with heights from 6 to 24 m, and a few towers among them.
 fn town(side: u32) -> Vec<Part> {
     let block = |number: u32| {
         let [column, row] = [number % side, number / side].map(|at| (f64::from(at) - f64::from(side) / 2.0) * 40.0);
@@ -29,7 +29,7 @@ fn scene(parts: Vec<Part>, top: bool) -> Scene {
     Scene { casters: mesh, receivers, ground: 0.0 }
 }
 
-/// A plan in the midst of a town, cells of half a metre.
+/// A plan in the middle of a town, with cells of half a metre.
 const PLAN: Grid = Grid { west: -61.371, north: 58.193, cell: 0.5, width: 240, height: 230 };
 
 /// The unit vector to the sun at some degrees.
@@ -47,12 +47,12 @@ fn drawn(technique: &mut dyn Technique, to_sun: DVec3) -> Bits {
     technique.draw(to_sun).unwrap().bits().unwrap()
 }
 
-/// How many cells two masks tell apart.
+/// In how many cells two masks differ.
 fn differing(one: &Bits, other: &Bits) -> u32 {
     one.words.iter().zip(&other.words).map(|(one, other)| (one ^ other).count_ones()).sum()
 }
 
-/// As few as have an edge within a thousandth of a cell of their centre.
+/// The greatest number of differing cells: those with an edge within a thousandth of a cell of their centre.
 fn few(scene: &Scene) -> u32 {
     if scene.receivers.faces.is_empty() { 0 } else { 3 }
 }

@@ -1,14 +1,14 @@
-//! The slow plain twin of projected shadows: every face by itself is cut, projected and scan-converted.
+//! A slow, simple reference for projected shadows: each face is cut, projected and scan-converted separately.
 
 use super::DVec3;
 use glam::DVec2;
 use gnomon::shadow::{JUDGED_ABOVE_M, Scene};
 use gnomon::view::Grid;
 
-/// What a centre that an edge runs through takes, in cells: what lies east, then south.
+/// The offset for a centre exactly on an edge, in cells: it belongs to the side to the east, then to the south.
 const TIE: DVec2 = DVec2::new(1e-4, 1e-5);
 
-/// Per cell its share: 0 where the faces cover its centre, seen along the sun, else 255.
+/// The share of each cell: 0 if the faces cover its centre, seen along the sun, otherwise 255.
 pub(crate) fn scanned(scene: &Scene, grid: &Grid, to_sun: DVec3) -> Vec<u8> {
     let mut raster = Raster { grid: *grid, share: vec![255; grid.cells()] };
     let throw = to_sun.truncate() / to_sun.z.max(1e-9);
@@ -28,7 +28,7 @@ pub(crate) fn scanned(scene: &Scene, grid: &Grid, to_sun: DVec3) -> Vec<u8> {
 /// A vertex seen along the sun.
 #[derive(Clone, Copy)]
 struct Place {
-    /// Where it falls, in cells from the grid's north-west corner, such that centres are whole numbers.
+    /// Where it is projected to, in cells from the grid's north-west corner, such that centres are whole numbers.
     at: DVec2,
     /// How high above the judged height it stands, metres.
     height: f64,
@@ -40,7 +40,8 @@ struct Raster {
 }
 
 impl Raster {
-    /// Covers what a face does, cut at the judged height: the part above it is a triangle, or a quadrilateral.
+    /// Covers the cells under a face that is cut at the judged height: the part above it is a triangle or a
+    /// quadrilateral.
     fn cover_face(&mut self, face: [Place; 3]) {
         let above = face.map(|place| place.height > 0.0);
         match above.iter().filter(|above| **above).count() {

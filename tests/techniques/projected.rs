@@ -1,4 +1,5 @@
-//! Projected shadows: ray casting's own mask on the ground, cell for cell, but within a thousandth of a cell of an edge.
+//! Projected shadows: the mask of ray casting on the ground, cell for cell, except within a thousandth of a cell of an
+//! edge.
 
 use super::plain_scan::scanned;
 use super::{draw, site};
@@ -16,7 +17,7 @@ use gnomon::shadow::{PlanSurface, Scene, Technique, plan_surface};
 use gnomon::view::{Grid, Mask, Surface, SurfaceRows, View};
 use std::sync::Arc;
 
-/// How near an edge may pass a cell that differs, in cells.
+/// How close to the centre of a differing cell an edge must run, in cells.
 const ON_PROCESSOR: f64 = 1e-3;
 const ON_GPU: f64 = 1.0 / 128.0;
 
@@ -25,8 +26,8 @@ fn projected(scene: &Scene, view: View, sun: DVec3) -> Mask {
     draw(&mut Projected::new(scene, grid), sun)
 }
 
-/// Cells that differ from ray casting, or with `twin` from the plain scan, and those of them at which no edge runs within so
-/// much of a cell.
+/// Cells that differ from ray casting, or with `twin` from the simple scan, and those of them that have no edge within
+/// this distance, in cells.
 fn differing(scene: &Scene, view: View, sun: DVec3, drawn: &Mask, twin: bool, within: f64) -> (usize, Vec<usize>) {
     let View::Plan(grid) = view else { panic!("a plan") };
     let mut truth = RayCast::new(scene.clone(), view, None);
@@ -158,7 +159,7 @@ fn one_wrong_cell_is_seen() {
     assert_eq!(differing(&scene, view, sun, &drawn, true, ON_PROCESSOR).1, [at]);
 }
 
-/// Cells that see something else of the receivers than a ray does: of two faces at one height either may be seen.
+/// Cells that see another receiver than a ray does; of two faces at the same height either may be seen.
 fn seen_otherwise(scene: &Scene, view: View, surface: &Surface) -> Vec<usize> {
     let truth = RayCast::new(scene.clone(), view, None).surface().unwrap();
     let differs = |at: &usize| {
@@ -244,7 +245,7 @@ fn what_does_not_receive_is_looked_through() {
     agree("half casts", &Scene { casters, ..scene }, view, &suns[..2]);
 }
 
-/// The adapter's mask of the ground held against ray casting's, sun by sun; how many cells differ at edges.
+/// Compares the adapter's mask of the ground with ray casting's, sun by sun; returns how many cells differ at edges.
 fn agree_on_gpu(gpu: &Arc<Gpu>, what: &str, scene: &Scene, view: View, suns: &[DVec3]) -> usize {
     let View::Plan(grid) = view else { panic!("a plan") };
     let mut technique = ProjectedOnGpu::new(Arc::clone(gpu), scene, grid).unwrap();

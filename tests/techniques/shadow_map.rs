@@ -1,4 +1,4 @@
-//! Shadow maps: the levels of each filter, the bias, and casters outside of the view.
+//! Shadow maps: the levels of each filter, the bias, and casters outside the view.
 
 use super::{draw, site};
 use crate::shared::drawing::{gpu, plan, scene_of, to_sun};
@@ -70,8 +70,9 @@ fn too_small_a_bias_is_seen_as_acne_and_too_large_a_one_as_light() {
     }
 }
 
-/// A coarse map holds the wall's own face in the texels of the ground at its foot. What of it lies behind the cell, as seen
-/// from the sun, must not shade it; what lies before the cell may, as no texel tells them apart.
+/// In a coarse map, the texels of the ground at a wall's foot contain the wall's own face. The part of it behind a
+/// cell, as seen from the sun, must not shade the cell; the part in front of it may, since no texel can distinguish
+/// them.
 #[test]
 fn a_lit_wall_shades_no_ground_before_it() {
     let wall = cuboid("wall", dvec3(-12.0, 0.0, 0.0), dvec3(12.0, 1.0, 10.0));
@@ -134,8 +135,8 @@ fn without_casters_or_far_from_them_all_is_light() {
     }
 }
 
-/// What a filter makes of an edge lies evenly on both sides of it: were the four maps of 2×2 drawn to one side, it would be
-/// seen here. (Along a row of texels an edge can lie half a texel aside; with these suns none runs so.)
+/// A filter blurs an edge equally to both sides: if the four maps of 2×2 were drawn off to one side, this test would
+/// show it. (An edge along a row of texels can be half a texel off; with these suns there is none.)
 #[test]
 fn no_filter_moves_an_edge() {
     let plate = [dvec3(-7.1, -5.3, 6.0), dvec3(6.2, -6.4, 6.0), dvec3(8.3, 5.1, 6.0), dvec3(-5.4, 7.2, 6.0)];

@@ -1,5 +1,5 @@
-//! Smoothies: the penumbra's width against the closed form, corners without seams, hard contact, and no light that the map
-//! alone would not give.
+//! Smoothies: the penumbra's width against the closed form, corners without seams, hard contact, and no more light than
+//! the map alone gives.
 
 use super::{draw, site};
 use crate::shared::drawing::{gpu, scene_of, to_sun};
@@ -17,7 +17,7 @@ use gnomon::view::{Grid, Mask, View};
 
 const SIDE: u32 = 700;
 
-/// A square of the ground around a point, so many metres wide.
+/// A square of the ground around a point, with a width in metres.
 fn around(middle: DVec2, side_m: f64) -> View {
     let cell = side_m / f64::from(SIDE);
     View::Plan(Grid { west: middle.x - side_m / 2.0, north: middle.y + side_m / 2.0, cell, width: SIDE, height: SIDE })
@@ -34,7 +34,7 @@ fn at(mask: &Mask, view: View, place: DVec2) -> u8 {
     mask.share[row as usize * mask.width as usize + column as usize]
 }
 
-/// How long the part of a line on which some of the sun is seen, but not all, is: metres.
+/// The length in metres of the part of a line on which some of the sun is seen, but not all.
 fn soft_length(mask: &Mask, view: View, from: DVec2, to: DVec2) -> f64 {
     let steps = 4000;
     let soft = (0..steps).filter(|&step| {
@@ -44,7 +44,7 @@ fn soft_length(mask: &Mask, view: View, from: DVec2, to: DVec2) -> f64 {
     soft.count() as f64 / f64::from(steps) * from.distance(to)
 }
 
-/// The width of the sun's penumbra so far behind an edge.
+/// The width of the sun's penumbra at a distance behind an edge.
 fn width(behind: f64) -> f64 {
     2.0 * behind * (SUN_DISC_RAD / 2.0).tan()
 }
@@ -278,8 +278,8 @@ fn a_lamps_penumbra_follows_the_papers_remap() {
     }
 }
 
-/// A plate throws its penumbra onto a table, and under the table lies a slab whose own smoothies run, seen from the sun,
-/// through the plate's. They lie behind a blocker, and must not darken the table.
+/// A plate casts its penumbra onto a table, and under the table is a slab whose smoothies, seen from the sun, cross
+/// those of the plate. They are behind a blocker, and must not darken the table.
 #[test]
 fn smoothies_behind_a_blocker_are_discarded() {
     let sun = to_sun(180.0, 50.0);
@@ -308,7 +308,8 @@ fn smoothies_behind_a_blocker_are_discarded() {
     assert_eq!(differ, 0, "cells of the table and the ground behind it");
 }
 
-/// A roof casts, and glass under it only receives: neither the glass nor the ground seen beyond it takes the other's width.
+/// A roof casts, and glass under it only receives: the widths of the penumbra on the glass and on the ground beyond it
+/// do not affect each other.
 #[test]
 fn behind_what_only_receives_the_penumbra_is_as_wide_as_there() {
     let roof = cuboid("roof", dvec3(-20.0, -20.0, 20.0), dvec3(20.0, 0.0, 20.3));

@@ -1,4 +1,4 @@
-//! Techniques with a map draw one for each tile, finer than one for all: how far that is from the whole.
+//! Techniques with a map draw one per tile, finer than one for the whole plan: how much the results differ.
 
 use super::{draw, site};
 use glam::DVec3;
@@ -13,10 +13,10 @@ use gnomon::silhouette::ProcessorFinder;
 use gnomon::view::{Grid, Mask, Tile, View};
 use std::sync::Arc;
 
-/// Cells along the plan's longer side, and texels along the map's: as many, as where nobody says.
+/// Cells along the plan's longer side, and texels along the map's: the same number, as by default.
 const SIZE: u32 = 1024;
 
-/// So many tiles a side.
+/// The number of tiles along a side.
 fn tiles(plan: Grid, parts: u32) -> Vec<Tile> {
     let cut = |length: u32, part: u32| length * part / parts;
     let tile = |part: u32| {
@@ -45,7 +45,8 @@ fn in_tiles(
     Mask { width: plan.width, height: plan.height, share }
 }
 
-/// Of two masks how many cells differ by more than half of the sun, and by how much of it all do, as shares.
+/// The share of cells in which two masks differ by more than half of the sun, and the mean difference of all cells as a
+/// share of the sun.
 fn differ(one: &Mask, other: &Mask) -> [f64; 2] {
     let off = one.share.iter().zip(&other.share).map(|(one, other)| one.abs_diff(*other));
     let cells = one.share.len() as f64;
@@ -54,7 +55,7 @@ fn differ(one: &Mask, other: &Mask) -> [f64; 2] {
     [more / cells, all / cells]
 }
 
-/// The rows of the table in docs/benchmarks/growth.md are what it prints.
+/// Prints the rows of the table in docs/benchmarks/growth.md.
 #[test]
 fn maps_of_tiles_are_finer() {
     let gpu = Arc::new(Gpu::open().unwrap());

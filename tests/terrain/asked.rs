@@ -1,4 +1,4 @@
-//! What is terrain, as files and keys say it; how buildings stand on it; probes above and below it.
+//! What counts as terrain according to files and keys, how buildings stand on it, and probes above and below it.
 
 use super::{mesh, terrain, track, valley, vienna};
 use crate::shared::said;
@@ -29,12 +29,12 @@ step = "1h"
 path = "terrain.tif"
 "#;
 
-/// A metre up for each ten to the east.
+/// The slope rises a metre for each ten to the east.
 fn tenth(x: f64, _: f64) -> f64 {
     0.1 * x
 }
 
-/// Blocks as wide to the east and from foot to head as is said.
+/// Blocks of 9 m height; west, east and foot are given.
 fn blocks(of: &[[f64; 3]]) -> Vec<Part> {
     let block = |(at, [west, east, foot]): (usize, &[f64; 3])| {
         cuboid(&format!("block {at}"), dvec3(*west, -5.0, *foot), dvec3(*east, 5.0, foot + 9.0))
@@ -42,7 +42,7 @@ fn blocks(of: &[[f64; 3]]) -> Vec<Part> {
     of.iter().enumerate().map(block).collect()
 }
 
-/// A reader in whose files lie a slope, which says that it is terrain, and blocks.
+/// A reader whose files contain a slope that is marked as terrain, and blocks.
 fn reader(of: &[[f64; 3]]) -> impl Fn(&Path, &ReadOptions) -> Result<Model, ModelError> {
     move |path, _| {
         Ok(match path.file_name().is_some_and(|name| name == "terrain.tif") {
@@ -210,7 +210,7 @@ fn probing(mesh: Mesh, points: &[(DVec3, Option<DVec3>)]) -> Sunlight {
     probe(&asked, &mut |_| ControlFlow::Continue(())).unwrap()
 }
 
-/// A window looks east at a hill, over whose brink the sun rises for it.
+/// A window faces east to a hill, over whose edge its sun rises.
 #[test]
 fn the_sun_rises_over_the_hill_for_a_house_in_the_valley() {
     let window = (dvec3(0.0, 0.0, 3.0), Some(DVec3::X));

@@ -1,4 +1,4 @@
-//! Terrain in drawings of the plan: as ground, and with the same lines and areas as the plane that it may be.
+//! Terrain in drawings of the plan: drawn as ground, with the same lines and areas as the plane if it is flat.
 
 use super::{drawn, mesh, site, terrain};
 use crate::shared::scenes::cuboid;
@@ -15,7 +15,7 @@ use gnomon::view::Surface;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-/// A group of a drawing's SVG, as far as its end; empty where there is none.
+/// A group of a drawing's SVG, up to its end; empty if there is none.
 fn group<'a>(svg: &'a str, name: &str) -> &'a str {
     let after = svg.split(&format!("<g id=\"{name}\">")).nth(1).unwrap_or_default();
     after.split("</g>").next().unwrap_or_default()
@@ -36,7 +36,7 @@ fn hours(site: &Site) -> (String, Vec<[u8; 3]>) {
     (svg, page.pixels().map(|pixel| pixel.0).collect())
 }
 
-/// Volumes are cut at a plane, which what is written says, too.
+/// Volumes are cut at a plane, and the output says so.
 #[test]
 fn volumes_say_that_they_do_not_end_at_the_terrain() {
     let block = || cuboid("box", dvec3(-6.0, -4.0, 2.5), dvec3(7.0, 5.0, 21.0));

@@ -1,4 +1,4 @@
-//! Overdraw and silhouette cells over scenes, as bars (figure 3-10 of E. Chan's thesis).
+//! Overdraw and silhouette cells of several scenes, as bars (figure 3-10 of E. Chan's thesis).
 
 use crate::dense;
 use crate::hybrid::{counted, silhouette_share, stage};

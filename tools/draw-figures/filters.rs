@@ -1,4 +1,4 @@
-//! The map's filters side by side (figure 7 of Brabec and Seidel).
+//! The filters of the shadow map side by side (figure 7 of Brabec and Seidel).
 
 use crate::picture::{Part, RED};
 use crate::scenes;

@@ -1,4 +1,4 @@
-//! How the hybrid works, where it fails, and what it looks like beside its parents (figures 3-5 and 3-7 to 3-9 of E. Chan's
+//! How the hybrid works, where it fails, and how it compares with its parents (figures 3-5 and 3-7 to 3-9 of E. Chan's
 //! thesis).
 
 use crate::dense::{self, Dense};

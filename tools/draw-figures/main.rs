@@ -1,8 +1,8 @@
-//! Draws the comparison sheets of `docs/techniques.md` into `docs/pictures`: `cargo run --release --example draw-figures`,
-//! or with the names of some sheets, those alone.
+//! Draws the comparison sheets of `docs/techniques.md` into `docs/pictures`: `cargo run --release --example
+//! draw-figures` for all, or followed by the names of some sheets.
 //!
-//! Everything is drawn by the library itself, and each run draws the same, but for the milliseconds in some captions,
-//! which are measured on the spot.
+//! The library itself draws everything, and each run gives the same pictures, except for the milliseconds in some
+//! captions, which are measured in the run.
 
 mod bars;
 #[path = "../../tests/shared/dense.rs"]

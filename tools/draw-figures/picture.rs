@@ -1,4 +1,4 @@
-//! Rasters of colours, and what is done to them on the way to a sheet.
+//! Rasters of colours, and how they are processed for a sheet.
 
 /// An sRGB colour.
 pub(crate) type Rgb = [u8; 3];

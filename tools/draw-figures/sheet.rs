@@ -1,4 +1,4 @@
-//! A comparison sheet: panels in rows and columns with captions, lettered as the drawings are, written as a small PNG.
+//! A comparison sheet: panels in rows and columns with captions, lettered like the drawings, written as a small PNG.
 
 use crate::picture::{Picture, Rgb};
 use anyhow::{Context as _, Result};
@@ -26,7 +26,7 @@ const LEADING: f64 = 1.3;
 /// What heads of rows take on the left.
 const ROW_HEAD: f64 = 110.0;
 
-/// A panel and what stands below it: the first line in ink, others in gray.
+/// A panel and the text below it: the first line in ink, others in gray.
 pub(crate) struct Panel {
     pub(crate) picture: Picture,
     pub(crate) caption: Vec<String>,

@@ -1,4 +1,4 @@
-//! Soft edges: by a filtered map, by smoothies, and as they are (figures 4-8 to 4-11 of E. Chan's thesis).
+//! Soft edges: by a filtered map, by smoothies, and the true ones (figures 4-8 to 4-11 of E. Chan's thesis).
 
 use crate::filters::afternoon;
 use crate::picture::{Picture, RED, Rgb, mix};

@@ -1,4 +1,4 @@
-//! A scene with its view and its sun, on which techniques draw.
+//! A scene with its view and its sun, for techniques to draw.
 
 use crate::picture::{Part, Picture, Rgb};
 use anyhow::Result;

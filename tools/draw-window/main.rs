@@ -1,5 +1,5 @@
-//! Draws the pictures of `docs/desktop.md`: `cargo run --example draw-window`. The real window, driven by the names of its
-//! parts, without a screen.
+//! Draws the pictures of `docs/desktop.md`: `cargo run --example draw-window`. It drives the real window by the names
+//! of its parts, without a screen.
 
 use anyhow::{Result, anyhow, bail};
 use eframe::egui::{Event, Key, Modifiers, Role, Theme};
@@ -93,7 +93,7 @@ fn click(window: &mut Harness<'_, App>, label: &str) -> Result<()> {
     settle(window)
 }
 
-/// Clicks, and does not wait for what comes of it.
+/// Clicks without waiting for the result.
 fn press(window: &mut Harness<'_, App>, label: &str) -> Result<()> {
     window.query_by_label(label).ok_or_else(|| anyhow!("there is no {label}"))?.click();
     window.step();
@@ -101,7 +101,7 @@ fn press(window: &mut Harness<'_, App>, label: &str) -> Result<()> {
     Ok(())
 }
 
-/// Names a path in the window's own dialog, which stands in for the system's where that has none.
+/// Enters a path in the window's own dialog, which is used if the system has none.
 fn answer(window: &mut Harness<'_, App>, path: &Path) -> Result<()> {
     let begun = Instant::now();
     while window.query_by_role_and_label(Role::TextInput, "Path").is_none() {

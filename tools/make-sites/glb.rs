@@ -1,6 +1,7 @@
-//! A model as exporters write it: materials, meshes with a primitive a material, a tree of nodes; then as a .glb.
+//! Writes a model as a .glb, structured as exporters do: materials, meshes with a primitive per material, a tree of
+//! nodes.
 //!
-//! Here everything is in the world frame (x east, y north, z up, in grid steps); glTF is x east, y up, z south.
+//! Everything here is in the world frame (x east, y north, z up, in grid steps); glTF is x east, y up, z south.
 
 use super::solids::{STEPS, Solid, on_grid};
 use glam::DVec3;

@@ -1,6 +1,6 @@
-//! Draws the models of the sample sites: `cargo run --example make-sites` writes what lies in `sites/NAME`.
+//! Draws the models of the sample sites: `cargo run --example make-sites` writes the files in `sites/NAME`.
 //!
-//! The tests include this file to see that what lies in the repository is what it draws.
+//! The tests include this file to check that the repository has exactly what it draws.
 
 mod glb;
 mod headquarters;

@@ -1,4 +1,4 @@
-//! The shapes that buildings are put together from: outlines in plan, and what is drawn up, along or around them.
+//! The shapes of which buildings are composed: outlines in plan, and solids drawn up, along or around them.
 
 use super::solids::{Solid, hoop, loft};
 use glam::{DVec2, DVec3, dvec2, dvec3};

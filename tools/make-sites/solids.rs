@@ -1,8 +1,8 @@
 //! Closed, well-wound solids on a grid of 1/1024 m.
 //!
-//! A solid is drawn with `f64` and kept in whole grid steps, so that every check on it is exact and a file has the
+//! A solid is drawn with `f64` and stored in whole grid steps, so that every check on it is exact and a file has the
 //! same bytes on every system. Only `+ − × ÷ √` are used on the way, which IEEE 754 rounds equally everywhere; the
-//! sine of the standard library is the system's own and may differ in its last bit.
+//! standard library's sine is that of the system and may differ in its last bit.
 
 use glam::DVec3;
 use std::collections::HashMap;

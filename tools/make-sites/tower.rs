@@ -1,6 +1,6 @@
 //! An open lattice tower, 300 m high: four legs on masonry that curve together, arches between them, three platforms.
 //!
-//! A leg, an arch with its girder, and a side of the shaft are drawn once and stand four times.
+//! A leg, an arch with its girder, and a side of the shaft are each drawn once and used four times.
 
 use super::glb::{Material, Model, Node};
 use super::shapes::{circle, lathe, lathe_hoop, on_circle, prism, rectangle, ring_wall, square, strut};

@@ -1,4 +1,4 @@
-//! What the adapter's extraction wrote, read as silhouettes. The tests and `try-models` share it.
+//! Reads the output of the adapter's extraction as silhouettes. Shared by the tests and `try-models`.
 
 use glam::DVec4;
 use gnomon::mesh::Mesh;
@@ -26,7 +26,7 @@ pub(crate) fn edges_of(mesh: &Mesh, indices: &[u32], light: DVec4, to_infinity: 
     indices.chunks(if to_infinity { 3 } else { 6 }).map(edge_of).collect()
 }
 
-/// The bits by which the cap's faces were turned.
+/// The bits that say which faces of the cap were turned.
 pub(crate) fn facing_of(mesh: &Mesh, cap: &[u32]) -> Vec<bool> {
     assert_eq!(cap.len(), mesh.faces.len() * 3);
     let facing = |(&[a, b, c], turned): (&[u32; 3], &[u32])| {
@@ -37,7 +37,7 @@ pub(crate) fn facing_of(mesh: &Mesh, cap: &[u32]) -> Vec<bool> {
     mesh.faces.iter().zip(cap.chunks(3)).map(facing).collect()
 }
 
-/// Whether a face is so near to edge-on that on the adapter it may fall either way.
+/// Whether a face is so nearly edge-on that the adapter may decide it either way.
 pub(crate) fn near_edge_on(mesh: &Mesh, face: usize, light: DVec4) -> bool {
     let plane = mesh.planes()[face];
     plane.dot(light).abs() <= 1e-6 * plane.length() * light.length()

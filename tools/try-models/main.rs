@@ -1,10 +1,10 @@
-//! Tries every glTF model below some folders: `cargo run --example try-models -- FOLDER...`
+//! Tries every glTF model in some folders: `cargo run --example try-models -- FOLDER...`
 //!
-//! A row a model: its triangles and casting edges, whether every finder gives the silhouettes of the plain rule, and how
-//! the stencil's plan differs from ray casting over a day that begins and ends with a low sun. The exit status is 1 when
-//! something does not hold. A model that cannot be read is told and counted, and is no failure.
+//! Prints a row per model: its triangles and casting edges, whether every finder gives the silhouettes of the simple
+//! rule, and how the stencil's plan differs from ray casting over a day that begins and ends with a low sun. The exit
+//! status is 1 if a check fails. A model that cannot be read is reported and counted, but is not a failure.
 //!
-//! The tests include this file to see that its comparisons can fail.
+//! The tests include this file to check that its comparisons can fail.
 
 use glam::{DVec3, DVec4, dvec4};
 use gnomon::choice::Receivers;
@@ -29,7 +29,7 @@ pub(crate) mod extracted;
 /// Makes a finder for a mesh.
 type Make = fn(&Mesh) -> Box<dyn SilhouetteFinder>;
 
-/// The finders that are held against the plain rule. A new finder is a line here.
+/// The finders that are compared with the simple rule. A new finder gets a line here.
 const FINDERS: &[(&str, Make)] = &[
     ("brute force", |mesh| ProcessorFinder::BruteForce.build(mesh)),
     ("hextree of the paper's depth", |mesh| ProcessorFinder::Hextree { depth: PAPER_DEPTH }.build(mesh)),
@@ -39,7 +39,7 @@ const FINDERS: &[(&str, Make)] = &[
 
 /// Cells along the plan's longer side.
 const SIZE: u32 = 700;
-/// What part of the edge cells may differ: models are dirty.
+/// The share of edge cells that may differ, since models are not clean.
 const EDGE_SHARE: f64 = 0.01;
 
 /// A day with a low sun at both ends.
@@ -56,7 +56,7 @@ fn asked(receivers: Receivers) -> Overrides {
     }
 }
 
-/// What a silhouette is: each edge, lower vertex first, and how often it is run along less how often against.
+/// A silhouette: each edge, lower vertex first, with its directed count, forwards minus backwards.
 type Sums = BTreeMap<[u32; 2], i32>;
 
 fn sums(edges: impl IntoIterator<Item = DirectedEdge>) -> Sums {
@@ -89,7 +89,7 @@ fn disagreeing(mesh: &Mesh, lights: &[DVec4], finders: &[(&'static str, Make)]) 
     finders.iter().filter(|(_, make)| !agrees(make)).map(|(name, _)| *name).collect()
 }
 
-/// Whether edges are those of the plain rule: as often as they stand there, not more often to and fro.
+/// Whether edges are those of the simple rule, with the same multiplicity and without pairs that cancel.
 fn is_silhouette(found: Vec<DirectedEdge>, truth: &Sums) -> bool {
     let length: i32 = truth.values().map(|sum| sum.abs()).sum();
     found.len() == length as usize && sums(found) == *truth
@@ -118,7 +118,7 @@ fn adapter_agrees(program: &ExtractionProgram, gpu: &Gpu, mesh: &Mesh, lights: &
     Ok(true)
 }
 
-/// What a model came to.
+/// The result for a model.
 struct Row {
     triangles: usize,
     edges: usize,
@@ -136,7 +136,7 @@ impl Row {
     }
 }
 
-/// The stencil's plan against ray casting, over all suns.
+/// Compares the stencil's plan with ray casting, over all suns.
 fn stencil_against_rays(gpu: &Arc<Gpu>, scene: Scene, view: View, suns: &[DVec3]) -> Result<Difference, ShadowError> {
     let mut stencil = Stencil::new(Arc::clone(gpu), scene.clone(), view, ProcessorFinder::BruteForce)?;
     let mut truth = RayCast::new(scene, view, None);

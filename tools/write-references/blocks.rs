@@ -1,4 +1,4 @@
-//! Generated blocks in a page that a person writes: `<!-- generated: NAME -->`, the text, `<!-- end -->`.
+//! Generated blocks in a page that is otherwise written by hand: `<!-- generated: NAME -->`, the text, `<!-- end -->`.
 
 /// A block's name, and its lines.
 pub(crate) type Block = (String, String);

@@ -1,6 +1,7 @@
 //! Writes the generated parts of `docs/command.md` and `docs/site-file.md`: `cargo run --example write-references`.
 //!
-//! What a person wrote between them stays. The tests include this file to see that the pages are up to date.
+//! The text written by hand between them is not changed. The tests include this file to check that the pages are up to
+//! date.
 
 mod blocks;
 mod command;

@@ -1,4 +1,4 @@
-//! The files of an animation: their names, and reading a frame back.
+//! Names of an animation's files, and reading a frame back.
 
 use crate::export::ExportError;
 use crate::export::figure::Screen;
@@ -13,7 +13,7 @@ pub(super) fn frame_path(folder: &Path, index: usize) -> PathBuf {
     folder.join(format!("frame-{index:04}.png"))
 }
 
-/// A frame as it was written.
+/// Reads a written frame back.
 pub(super) fn read(folder: &Path, index: usize) -> Result<Screen, ExportError> {
     let path = frame_path(folder, index);
     let again = |why: String| ExportError::encode("animation", format!("{}: {why}", path.display()));

@@ -1,7 +1,8 @@
-//! A study as pictures that follow each other: `frame-0000.png` …, and `day.gif` of the same pictures.
+//! A study as an animation: the pictures `frame-0000.png` and so on, and `day.gif` made of them.
 //!
-//! Frames are written as they are drawn. The GIF is made when all of them are there, since its colours depend on all,
-//! and then one frame at a time is in memory. It is written under a temporary name and renamed when it is complete.
+//! Frames are written as they are drawn. The GIF follows when all of them exist, since its palette depends on all of
+//! them; then only one frame at a time is in memory. It is written under a temporary name and renamed when it is
+//! complete.
 
 mod frame_files;
 mod palette;
@@ -21,10 +22,10 @@ use std::path::{Path, PathBuf};
 /// The greatest number of frames.
 pub(crate) const MOST_FRAMES: usize = 2000;
 
-/// The GIF's colours come from about this many of the frames, evenly spread.
+/// The GIF's palette comes from about this many frames, evenly spread.
 const SAMPLED: usize = 64;
 
-/// The pictures in a folder, and the colours seen so far.
+/// The frames of an animation in a folder, and the colours seen so far.
 pub struct Frames {
     folder: PathBuf,
     count: usize,
@@ -34,17 +35,17 @@ pub struct Frames {
 }
 
 impl Frames {
-    /// `count` frames, none of which is written yet. Further frames of an older animation are removed when everything
-    /// is done.
+    /// An animation of `count` frames, none of which is written yet. Frames that an older, longer animation left are
+    /// removed when this one is complete.
     ///
     /// # Errors
-    /// [`ExportError::OtherFrame`] where a file is called as such a frame is, and is not known to be one.
+    /// [`ExportError::OtherFrame`] if a file has the name of such a frame but is not known to be one.
     pub fn new(folder: &Path, count: usize) -> Result<Frames, ExportError> {
         let older = OldFrames::find(folder, count)?;
         Ok(Frames { folder: folder.to_owned(), count, older, done: 0, counts: Counts::default() })
     }
 
-    /// A note for the user on the frames of an older animation that are removed.
+    /// A note for the user on frames of an older animation that will be removed.
     pub fn note(&self) -> Option<String> {
         self.older.note()
     }
@@ -54,12 +55,12 @@ impl Frames {
         frame_path(folder, index)
     }
 
-    /// Everything that an animation of `count` frames writes into a folder.
+    /// All files that an animation of `count` frames writes into a folder.
     pub(crate) fn outputs(folder: &Path, count: usize) -> Vec<PathBuf> {
         (0..count).map(|index| Frames::path(folder, index)).chain([folder.join(GIF)]).collect()
     }
 
-    /// What an animation would replace in a folder: a GIF, or the first file that has a frame's name.
+    /// What an animation would replace in a folder: the GIF, or the first file with a frame's name.
     pub fn there(folder: &Path) -> Option<PathBuf> {
         let gif = Some(folder.join(GIF)).filter(|gif| gif.is_file());
         gif.or_else(|| previous_frames::beyond(folder, 0).into_values().next())
@@ -78,10 +79,10 @@ impl Frames {
         Ok(())
     }
 
-    /// Begins the GIF, when all frames are written. Each is shown for that many hundredths of a second.
+    /// Begins the GIF when all frames are written. `delay` is how long each is shown, in hundredths of a second.
     ///
     /// # Errors
-    /// [`ExportError::Read`] and [`ExportError::Encode`] where the first frame is not what was written; as
+    /// [`ExportError::Read`] and [`ExportError::Encode`] if the first frame is not as it was written; as
     /// [`file::write`].
     pub fn gif(self, delay: u16) -> Result<Gif, ExportError> {
         let path = self.folder.join(GIF);
@@ -100,7 +101,7 @@ impl Frames {
     }
 }
 
-/// A GIF that is being made from the written frames. If it is not finished, no GIF remains.
+/// A GIF that is being made of the written frames. Unless it is finished, no GIF remains.
 pub struct Gif {
     folder: PathBuf,
     older: OldFrames,
@@ -117,8 +118,8 @@ impl Gif {
     /// Adds a frame.
     ///
     /// # Errors
-    /// [`ExportError::Read`] and [`ExportError::Encode`] where it is not what was written; [`ExportError::Write`] where
-    /// the file system refuses.
+    /// [`ExportError::Read`] and [`ExportError::Encode`] if the frame is not as it was written; [`ExportError::Write`]
+    /// if the file system fails.
     pub fn add(&mut self, index: usize) -> Result<(), ExportError> {
         let frame = read(&self.folder, index)?;
         let (width, height) = self.size;
@@ -131,11 +132,11 @@ impl Gif {
         self.encoder.write_frame(&frame).map_err(|error| failed(&self.path, error))
     }
 
-    /// Finishes the GIF when all frames are in it: it replaces an older one, and what else is left of an older
-    /// animation is removed. Returns its path.
+    /// Finishes the GIF when it has all frames: it replaces an older one, and what remains of an older animation is
+    /// removed. Returns its path.
     ///
     /// # Errors
-    /// [`ExportError::Write`] where the file system refuses.
+    /// [`ExportError::Write`] if the file system fails.
     pub fn finish(self) -> Result<PathBuf, ExportError> {
         let Gif { path, older, encoder, beside, .. } = self;
         let mut file = encoder.into_inner().map_err(|error| failed(&path, error))?;

@@ -1,9 +1,9 @@
-//! The colours of a GIF: at most 256 for all of its frames, so that nothing flickers.
+//! The palette of a GIF: at most 256 colours for all frames, so that nothing flickers.
 //!
 //! The method is median cut (Heckbert, *Color Image Quantization for Frame Buffer Display*, 1982), with two changes.
-//! The box to cut next is the one whose colours lie farthest from their mean, and it is cut at the mean; and a box is
-//! represented by its most frequent colour, not by its mean, so that a drawing's flat colours stay the same to the bit.
-//! Nothing is dithered, as the grain would look like cells, and would crawl from frame to frame.
+//! The next box to cut is the one with the largest sum of squared differences from the mean, and it is cut at the mean.
+//! A box is represented by its most frequent colour, not by its mean, so that the flat colours of a drawing stay the
+//! same to the bit. There is no dithering: its grain would look like cells and would crawl from frame to frame.
 
 use crate::export::figure::{Screen, scale::Rgb};
 use rustc_hash::FxHashMap;
@@ -11,7 +11,7 @@ use rustc_hash::FxHashMap;
 /// The greatest number of colours of a GIF.
 const MOST_COLOURS: usize = 256;
 
-/// How often each colour is seen.
+/// The number of pixels of each colour.
 #[derive(Default)]
 pub(super) struct Counts(FxHashMap<Rgb, u64>);
 
@@ -24,7 +24,7 @@ impl Counts {
 
     pub(super) fn palette(self) -> Palette {
         let mut colours: Vec<ColourCount> = self.0.into_iter().collect();
-        // a map's order is not the same everywhere
+        // the order in a map is not the same everywhere
         colours.sort_unstable();
         let mut boxes = vec![Box::of(colours)];
         while boxes.len() < MOST_COLOURS {
@@ -41,10 +41,10 @@ impl Counts {
 
 type ColourCount = (Rgb, u64);
 
-/// Colours that are near each other.
+/// Colours that are close to each other.
 struct Box {
     colours: Vec<ColourCount>,
-    /// The component (red, green or blue) in which they differ most, and its mean.
+    /// The component (red, green or blue) in which the colours vary most, and its mean.
     part: usize,
     mean: f64,
     /// The sum of squared differences from that mean over all pixels; 0 if there is one colour.
@@ -68,7 +68,7 @@ impl Box {
         Box { colours, part, mean, spread }
     }
 
-    /// Splits the box into what lies below the mean and the rest. Neither is empty if the spread is not 0.
+    /// Splits the box into the colours below the mean and the rest. Neither is empty if the spread is not 0.
     fn cut(self) -> [Box; 2] {
         let Box { colours, part, mean, .. } = self;
         let (low, high) = colours.into_iter().partition(|(colour, _)| f64::from(colour[part]) < mean);
@@ -76,7 +76,7 @@ impl Box {
     }
 }
 
-/// The colours, with the nearest of them for colours that were looked up before.
+/// The palette, and the nearest colour for each colour that was looked up before.
 pub(super) struct Palette {
     colours: Vec<Rgb>,
     known: FxHashMap<Rgb, u8>,
@@ -88,9 +88,9 @@ impl Palette {
         self.colours.concat()
     }
 
-    /// A frame as indices of the palette.
+    /// Converts a frame to palette indices.
     pub(super) fn of(&mut self, frame: &Screen) -> Vec<u8> {
-        /// The greatest number of colours that are remembered, so that a long animation does not fill the memory.
+        /// How many looked-up colours are remembered at most, so that a long animation does not fill the memory.
         const MOST_KNOWN: usize = 1 << 20;
         if self.known.len() > MOST_KNOWN {
             self.known.clear();

@@ -1,6 +1,6 @@
-//! Removes what an older, longer animation left in the folder of a new one. Its further frames would be taken for
-//! frames of the new one. Only frames that are known to belong to it are removed: those that show, pixel for pixel,
-//! what the GIF beside them shows in its colours. A picture that somebody put there, or drew on, is kept.
+//! Removes the frames that an older, longer animation left in the folder of a new one, since they would be mistaken for
+//! frames of the new one. Only frames that are known to belong to the older animation are removed: those that match the
+//! GIF beside them pixel by pixel. A picture that somebody put there, or drew on, is kept.
 
 use super::frame_files::{GIF, frame_path, read};
 use super::palette::nearest;
@@ -14,14 +14,14 @@ use std::fs::{self, OpenOptions};
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
-/// Frames of the older animation, and their contents.
+/// Frames of the older animation, each with a checksum of its content.
 pub(super) struct OldFrames(Vec<(PathBuf, u64)>);
 
 impl OldFrames {
-    /// The frames in a folder from an index on, which must all belong to the GIF there.
+    /// Finds the frames in a folder from an index on; all must belong to the GIF there.
     ///
     /// # Errors
-    /// [`ExportError::OtherFrame`] where one is not.
+    /// [`ExportError::OtherFrame`] if one does not.
     pub(super) fn find(folder: &Path, count: usize) -> Result<OldFrames, ExportError> {
         let frames = beyond(folder, count);
         let known = if frames.is_empty() { Vec::new() } else { of_gif(folder, &frames).unwrap_or_default() };
@@ -35,13 +35,13 @@ impl OldFrames {
         Ok(OldFrames(found))
     }
 
-    /// A note for the user.
+    /// The note to the user about what will be removed.
     pub(super) fn note(&self) -> Option<String> {
         let (first, last) = (&self.0.first()?.0, &self.0.last()?.0);
         let which = match self.0.len() {
-            1 => format!("{} is of the longer animation that is there, and goes", first.display()),
+            1 => format!("{} belongs to the older, longer animation there and is removed", first.display()),
             _ => format!(
-                "{} to {} are of the longer animation that is there, and go",
+                "{} to {} belong to the older, longer animation there and are removed",
                 first.display(),
                 last.file_name().unwrap_or_default().to_string_lossy()
             ),
@@ -49,17 +49,17 @@ impl OldFrames {
         Some(format!("{which} when this one is done"))
     }
 
-    /// Removes them. A frame that has changed since is kept.
+    /// Removes the frames, except those that have changed since.
     ///
     /// # Errors
-    /// [`ExportError::Write`] where the file system refuses.
+    /// [`ExportError::Write`] if the file system fails.
     pub(super) fn remove(self) -> Result<(), ExportError> {
         let same = self.0.into_iter().filter(|(path, checksum)| checksum::of_file(path) == Some(*checksum));
         same.map(|(path, _)| path).try_for_each(|path| file::remove(&path))
     }
 }
 
-/// The files with names of frames from an index on.
+/// The files in a folder that are named as frames from an index on.
 pub(super) fn beyond(folder: &Path, count: usize) -> BTreeMap<usize, PathBuf> {
     let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let entries = fs::read_dir(here).into_iter().flatten().flatten();
@@ -72,13 +72,13 @@ pub(super) fn beyond(folder: &Path, count: usize) -> BTreeMap<usize, PathBuf> {
     frames.filter(|(index, _)| *index >= count).collect()
 }
 
-/// Those of some frames that look as the GIF in their folder shows them; none if there is no GIF of ours.
+/// Those of some frames that match the GIF in their folder; none if there is no GIF of ours.
 fn of_gif(folder: &Path, frames: &BTreeMap<usize, PathBuf>) -> Option<Vec<usize>> {
     let file = OpenOptions::new().read(true).open(folder.join(GIF)).ok()?;
     let mut options = DecodeOptions::new();
     options.set_color_output(ColorOutput::Indexed);
     let mut gif = options.read_info(BufReader::new(file)).ok()?;
-    // its file fills the colours up with black, and black may be the last of them
+    // the file is padded with black, and black may also be the last colour
     let mut colours: Vec<Rgb> = gif.global_palette()?.as_chunks().0.to_vec();
     while colours.pop_if(|colour| *colour == [0; 3]).is_some() {}
     let palettes = [colours.clone(), [colours, vec![[0; 3]]].concat()];
@@ -98,7 +98,7 @@ fn of_gif(folder: &Path, frames: &BTreeMap<usize, PathBuf>) -> Option<Vec<usize>
     Some(known)
 }
 
-/// Whether a frame becomes these indices in one of the palettes.
+/// Whether a frame, converted with one of the palettes, gives these indices.
 fn shows(numbers: &[u8], frame: &Screen, palettes: &[Vec<Rgb>]) -> bool {
     let pairs: FxHashSet<(Rgb, u8)> = frame.pixels.iter().copied().zip(numbers.iter().copied()).collect();
     let is_in = |palette: &Vec<Rgb>| pairs.iter().all(|(colour, number)| nearest(palette, *colour) == *number);

@@ -18,24 +18,24 @@ const NAMED: [Rgb; 8] = [
     [187, 204, 51],  // pear
     [170, 170, 0],   // olive
 ];
-/// How much nearer to white the colours are, so that they are tints in which light and shade still show.
+/// How much the colours are mixed with white, so that light and shade still show on them.
 const SOFTER: f64 = 0.38;
 
-/// How much nearer to white a component is that casts no shadow.
+/// The same for a component that casts no shadow.
 const CASTS_NOTHING: f64 = 0.72;
 const WHITE: Rgb = [255, 252, 246];
 
-/// The colours of one picture's components.
+/// The colours of the components in one picture.
 pub(super) struct Components {
     /// The end of each component's faces, and its colour.
     colours: Vec<(u32, Rgb)>,
-    /// The largest components that are seen, and how many more there are.
+    /// The largest visible components, and how many more there are.
     pub legend: Vec<(Rgb, String)>,
 }
 
 impl Components {
-    /// `casts` says for each component of the mesh whether it casts. Colours are chosen by area among the components
-    /// that are seen, so that they do not change with what casts.
+    /// `casts` says for each component of the mesh whether it casts a shadow. Colours are chosen by area among the
+    /// visible components, so that they do not depend on which cast.
     pub(super) fn new(mesh: &Mesh, surface: &Surface, casts: &[bool]) -> Components {
         let mut seen = vec![false; mesh.components.len()];
         for &face in surface.face.iter().filter(|face| **face < Surface::GROUND) {
@@ -48,7 +48,7 @@ impl Components {
 
         let mut colours: Vec<_> = mesh.components.iter().map(|component| (component.faces.end, WHITE)).collect();
         let mut legend = Vec::new();
-        // one that is left over takes no more room than the word that it is
+        // a single one left over takes no more room than the line that would count it
         let named = if by_size.len() == NAMED.len() + 1 { by_size.len() } else { NAMED.len() };
         for (rank, &(component, _)) in by_size.iter().enumerate() {
             let casts = casts.get(component).is_none_or(|casts| *casts);
@@ -72,7 +72,7 @@ impl Components {
     }
 }
 
-/// The colour of each component, chosen by its area among all of them; `casts` says which cast.
+/// The colour of each component, chosen by its area among all; `casts` says which ones cast.
 pub fn of_all(mesh: &Mesh, casts: &[bool]) -> Vec<Rgb> {
     let mut by_size: Vec<(usize, f64)> = (0..mesh.components.len()).map(|at| (at, area(mesh, at))).collect();
     by_size.sort_by(|a, b| b.1.total_cmp(&a.1));
@@ -83,7 +83,7 @@ pub fn of_all(mesh: &Mesh, casts: &[bool]) -> Vec<Rgb> {
     colours
 }
 
-/// The colour of the component with that rank in size.
+/// The colour of the component with this rank in size.
 fn colour(rank: usize, casts: bool) -> Rgb {
     let own = NAMED.get(rank).map(|named| mix(*named, WHITE, SOFTER));
     let own = own.unwrap_or_else(|| further(rank - NAMED.len()));
@@ -97,7 +97,7 @@ fn area(mesh: &Mesh, component: usize) -> f64 {
     faces.map(|face| area(mesh.corners(face as usize))).sum()
 }
 
-/// Quiet colours for further components: hues a golden section apart, so that any two in sequence differ.
+/// Muted colours for further components: hues a golden section apart, so that any two in sequence differ.
 fn further(index: usize) -> Rgb {
     let hue = (0.55 + index as f64 * 0.618_034).fract() * TAU;
     let light = 232.0 - 10.0 * (index % 3) as f64;

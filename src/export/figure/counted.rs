@@ -1,15 +1,15 @@
-//! How much work counting took, as colours of cells, after figures 3-5 and 3-9 of E. Chan's thesis (*Efficient Shadow
+//! The work of counting as colours of cells, after figures 3-5 and 3-9 of E. Chan's thesis (*Efficient Shadow
 //! Algorithms on Graphics Hardware*, 2004).
 
 use super::scale::{Rgb, mix};
 use crate::view::{Decider, FragmentCounts};
 
-/// The diagrams of counting.
+/// The diagrams of the work of counting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Diagram {
-    /// Which method decided each cell, and how.
+    /// Which method decided each cell, and with what result.
     Mask,
-    /// The number of fragments that reached the count, as brightness.
+    /// The number of counted fragments, as brightness.
     Overdraw,
 }
 
@@ -19,23 +19,23 @@ const MAP_LIGHT: Rgb = [122, 164, 220];
 const VOLUME_SHADOW: Rgb = [12, 12, 14];
 const VOLUME_LIGHT: Rgb = [70, 190, 80];
 
-/// The colours of no fragment, and of the most in the picture.
+/// The colours for no fragment, and for the most in the picture.
 const NO_FRAGMENT: Rgb = [18, 18, 22];
 const MOST_FRAGMENTS: Rgb = [255, 255, 255];
 
-/// Colours of cells, and their meaning.
+/// The colours of a diagram, and their meaning.
 #[derive(Clone, Debug)]
 pub struct Colours {
     /// The colour of each cell, row 0 first.
     pub of_cells: Vec<Rgb>,
-    /// What they measure.
+    /// What the colours measure.
     pub legend_head: String,
-    /// Each colour, and what it means.
+    /// Each colour with its meaning.
     pub legend: Vec<(Rgb, String)>,
 }
 
 impl Diagram {
-    /// The title of a drawing of it.
+    /// The title of the diagram's drawing.
     pub(super) fn title(self) -> &'static str {
         match self {
             Diagram::Mask => "Computation mask",
@@ -45,7 +45,7 @@ impl Diagram {
 }
 
 impl Colours {
-    /// `None` if a mask is requested and there was none.
+    /// `None` if the mask is requested but there was none.
     pub fn of(counted: &FragmentCounts, diagram: Diagram) -> Option<Colours> {
         match diagram {
             Diagram::Mask => Some(of_mask(counted.decided.as_ref()?)),
@@ -75,7 +75,8 @@ fn of_mask(decided: &[Decider]) -> Colours {
     }
 }
 
-/// Brightness grows with the square root of the fragments; otherwise a few dense cells would leave all others black.
+/// Brightness grows with the square root of the number of fragments, since otherwise a few dense cells would leave all
+/// others black.
 fn of_overdraw(counted: &FragmentCounts) -> Colours {
     let most = counted.reached.iter().copied().max().unwrap_or(0).max(1);
     let colour = |fragments: u32| mix(NO_FRAGMENT, MOST_FRAGMENTS, (f64::from(fragments) / f64::from(most)).sqrt());

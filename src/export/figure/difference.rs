@@ -13,24 +13,25 @@ use crate::view::Surface;
 const LOST: [Rgb; 3] = [[208, 224, 240], [84, 125, 176], [10, 30, 88]];
 /// Less shadow, lighter than the same amount of more shadow.
 const GAINED: [Rgb; 3] = [[253, 232, 188], [243, 174, 82], [204, 98, 14]];
-/// The colours of what is new, and of what is gone.
+/// The colours of what is new and of what is gone.
 const BUILT: Rgb = [112, 110, 106];
 const CLEARED: Rgb = [201, 199, 194];
 
-/// The greatest number of bands on either side; more are hard to tell apart.
+/// The greatest number of bands for gain and for loss; more are hard to tell apart.
 const MOST_BANDS: u32 = 7;
 
-/// The bands of a change: none, then (0, band], (band, 2 band], … on either side, up to the larger change.
+/// The bands of a change: none, then (0, band], (band, 2 band], … for gain and for loss alike, up to the larger of the
+/// two.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ChangeBands {
     /// Width of a band, seconds.
     pub band_secs: u32,
-    /// The number of bands on either side.
+    /// The number of bands for gain, and for loss.
     pub count: u32,
 }
 
 impl ChangeBands {
-    /// Bands as wide as the study's step if these are few enough, otherwise of a round duration.
+    /// Bands as wide as the study's step if that gives few enough, otherwise of a round duration.
     pub fn of(comparison: &Comparison, step_secs: u32) -> ChangeBands {
         let most = (0..comparison.cells()).filter_map(|cell| comparison.change(cell)).map(i64::unsigned_abs).max();
         // no change is longer than the daylight, which fits
@@ -39,7 +40,7 @@ impl ChangeBands {
         ChangeBands { band_secs, count: most_secs.div_ceil(band_secs) }
     }
 
-    /// The colour of a change in 1/255 s of shadow.
+    /// The colour of a change in shadow, in units of 1/255 s.
     pub fn colour(&self, change: i64) -> Rgb {
         if change == 0 {
             return NO_SHADOW;
@@ -74,21 +75,20 @@ impl ChangeBands {
     }
 }
 
-/// A change in the drawing's colours.
+/// The colours of a change.
 pub struct ChangeColours {
     /// The colour of each cell.
     pub of_cells: Vec<Rgb>,
     /// The heading of the legend.
     pub legend_head: String,
-    /// Each colour and its meaning; the most sun gained comes first.
+    /// Each colour with its meaning; the most sun gained comes first.
     pub legend: Vec<(Rgb, String)>,
-    /// How each cell is drawn as altered.
+    /// For each cell, whether and how it is drawn as altered.
     altered: Vec<Alteration>,
 }
 
 impl ChangeColours {
-    /// The colours of what is seen before and after. The faces seen after are those of a mesh, judged with these
-    /// receivers in steps of that many seconds.
+    /// The colours of a comparison. `mesh` is the mesh after the change; `step_secs` is the step of the study.
     pub fn of(
         comparison: &Comparison,
         [before, after]: [&Surface; 2],
@@ -98,7 +98,7 @@ impl ChangeColours {
     ) -> ChangeColours {
         let ground_only = receivers == Receivers::Ground;
         let bands = ChangeBands::of(comparison, step_secs);
-        // under a ground that is judged alone buildings are drawn by what stands there
+        // if only the ground is judged, buildings are drawn as what stands there
         let altered: Vec<Alteration> = match ground_only {
             true => Alteration::between(before, after),
             false => (0..comparison.cells()).map(|cell| comparison.altered(cell)).collect(),
@@ -130,11 +130,11 @@ impl ChangeColours {
     }
 }
 
-/// `compare.png`: hours of sun lost and gained on the plan. The scenes are those before and after; the second one names
-/// the sheet.
+/// `compare.png`: hours of sun lost and gained on the plan. The two scenes are those before and after; the sheet takes
+/// its labels from the latter.
 ///
 /// # Errors
-/// [`ExportError::Size`] where a surface or the comparison does not fill the grid; [`ExportError::Encode`] from the
+/// [`ExportError::Size`] if a surface or the comparison does not fill the grid; [`ExportError::Encode`] from the
 /// encoder.
 pub fn difference(
     scenes: &[FigureContext; 2],

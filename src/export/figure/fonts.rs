@@ -1,9 +1,9 @@
-//! Fonts. Noto Sans has priority for every letter that it has, so that a drawing looks the same on every machine; for
-//! all other letters the system's fonts are used.
+//! Fonts. Noto Sans is used for every letter that it has, so that a drawing looks the same on every machine; the
+//! system's fonts supply the other letters.
 //!
-//! A line that needs several fonts is set run by run, each run in a font that has all of its letters. A renderer that
-//! replaces the font of a whole line gives up where the other font makes a different number of glyphs, as an emoji font
-//! does, and then letters that other fonts have become boxes, too.
+//! A line that needs several fonts is split into runs, each in a font that has all of its letters. A renderer that
+//! replaces the font of a whole line fails if the other font produces a different number of glyphs, as emoji fonts do;
+//! letters of further fonts then become boxes, too.
 
 use super::text::{escape, unescape};
 use resvg::usvg::fontdb::{Database, FaceInfo, ID, Source, Style};
@@ -16,7 +16,7 @@ use unicode_bidi::{BidiInfo, Level};
 
 /// The family's name in the drawings' SVG.
 pub(super) const FAMILY: &str = "Noto Sans";
-/// The prefix of the family name of a run, before the font's index in the database.
+/// The prefix of a run's family name; the font's index in the database follows.
 const FACE: &str = "face-";
 
 /// The options for rendering a drawing's SVG. The system's fonts are searched only if the drawing needs them.
@@ -36,12 +36,12 @@ pub(super) fn options(svg: &str) -> Options<'static> {
     Options { fontdb, font_family: FAMILY.to_owned(), font_resolver, ..Options::default() }
 }
 
-/// Regular or bold Noto Sans, whichever is nearer to the weight. The system's Noto Sans may be another one.
+/// Regular or bold Noto Sans, whichever is nearer to the weight. The system may have a different Noto Sans.
 fn own_face(weight: u16, faces: &Database) -> Option<ID> {
     faces.faces().take(2).min_by_key(|face| face.weight.0.abs_diff(weight)).map(|face| face.id)
 }
 
-/// A drawing's SVG in which every line that needs several fonts is set run by run. Everything else is unchanged.
+/// A drawing's SVG in which every line that needs several fonts is split into runs. Everything else is unchanged.
 pub(super) fn in_runs(svg: &str) -> Cow<'_, str> {
     if !svg.chars().any(is_foreign) {
         return Cow::Borrowed(svg);
@@ -61,7 +61,7 @@ pub(super) fn in_runs(svg: &str) -> Cow<'_, str> {
     Cow::Owned(set)
 }
 
-/// One line in runs; `None` if it needs a single font, or is not set at an x of its own.
+/// Splits a line into runs; `None` if one font is enough, or if the line has no x of its own.
 fn line_in_runs(line: &str, faces: &Database) -> Option<String> {
     let (head, said) = line.strip_suffix("</text>")?.split_once('>')?;
     if !said.chars().any(is_foreign) {
@@ -113,12 +113,12 @@ fn width(line: &str) -> f64 {
     tree.map_or(0.0, |tree| tree.root().children().iter().map(of).fold(0.0, f64::max))
 }
 
-/// A line's runs from left to right, each with the font that has its letters: `None` for Noto Sans, of whose weights
-/// `weight` is one. What no font has stays with Noto Sans, which draws a box.
+/// The runs of a line from left to right, each with the font that has its letters; `None` for Noto Sans, in the given
+/// `weight`. Letters that no font has stay with Noto Sans, which draws a box.
 pub fn runs(line: &str, weight: u16, faces: &Database) -> Vec<(Option<ID>, String)> {
     let bidi = BidiInfo::new(line, Some(Level::ltr()));
     let mut runs = Vec::new();
-    // the last of the system's faces: what it has it draws, too
+    // the system font that was used last: it keeps what it can draw
     let mut last = None;
     for paragraph in &bidi.paragraphs {
         let (levels, parts) = bidi.visual_runs(paragraph, paragraph.range.clone());
@@ -133,7 +133,7 @@ pub fn runs(line: &str, weight: u16, faces: &Database) -> Vec<(Option<ID>, Strin
     runs
 }
 
-/// The runs of a part with one direction, in the order of that direction.
+/// The runs of a part that has one direction of writing, in the order of that direction.
 fn split(part: &str, weight: u16, faces: &Database, last: &mut Option<ID>) -> Vec<(Option<ID>, String)> {
     let base: Vec<ID> = own_face(weight, faces).into_iter().collect();
     let in_face =
@@ -142,7 +142,7 @@ fn split(part: &str, weight: u16, faces: &Database, last: &mut Option<ID>) -> Ve
     for letter in part.chars() {
         let now = runs.last().and_then(|(face, _)| *face);
         let face = match now {
-            // what joins letters, or changes how the one before looks, stays with that
+            // what joins letters, or changes the letter before it, stays with that letter
             _ if is_unseen(letter) => now,
             Some(face) if is_attached(letter) && in_face(face, letter) => now,
             _ if !is_foreign(letter) => None,
@@ -154,7 +154,7 @@ fn split(part: &str, weight: u16, faces: &Database, last: &mut Option<ID>) -> Ve
             _ => runs.push((face, letter.to_string())),
         }
     }
-    // blanks and signs between letters of one face are that face's: words stay whole, and in their order
+    // blanks and signs between letters of one font are set in that font: words stay whole and in order
     let mut joined: Vec<(Option<ID>, String)> = Vec::new();
     for (face, said) in runs {
         if let [.., (Some(before), text), (None, between)] = joined.as_mut_slice()
@@ -171,7 +171,7 @@ fn split(part: &str, weight: u16, faces: &Database, last: &mut Option<ID>) -> Ve
     joined
 }
 
-/// The letters of a text that no font has, each once: they are drawn as boxes.
+/// The letters of a text that no font has, each once. They are drawn as boxes.
 pub fn without_face(text: &str) -> String {
     let mut missing = String::new();
     for letter in text.chars().filter(|letter| is_foreign(*letter)) {
@@ -182,7 +182,7 @@ pub fn without_face(text: &str) -> String {
     missing
 }
 
-/// Whether Noto Sans lacks a letter. Control characters are not letters, and neither are variation selectors.
+/// Whether Noto Sans lacks a letter. Control characters and variation selectors do not count as letters.
 fn is_foreign(letter: char) -> bool {
     !letter.is_ascii() && !is_unseen(letter) && !has(notosans::REGULAR_TTF, 0, letter)
 }
@@ -193,7 +193,7 @@ fn is_unseen(letter: char) -> bool {
         || matches!(letter, '\u{200B}'..='\u{200F}' | '\u{2060}'..='\u{2064}' | '\u{FE00}'..='\u{FE0F}' | '\u{E0000}'..='\u{E0FFF}')
 }
 
-/// Characters that are drawn on the letter before: accents, enclosing signs, and skin tones of emoji.
+/// Characters that are drawn onto the previous letter: accents, enclosing signs, and skin tones of emoji.
 fn is_attached(letter: char) -> bool {
     matches!(
         letter,
@@ -202,13 +202,14 @@ fn is_attached(letter: char) -> bool {
     )
 }
 
-/// Whether a font draws a letter. A font of bitmaps alone, as some emoji fonts are, draws none here.
+/// Whether a font can draw a letter. A font that has only bitmaps, as some emoji fonts do, cannot draw any here.
 fn has(face: &[u8], index: u32, letter: char) -> bool {
     FontRef::from_index(face, index)
         .is_ok_and(|face| face.outline_glyphs().format().is_some() && face.charmap().map(letter).is_some())
 }
 
-/// The font that has a letter and suits the first of those in use best: upright, of similar weight, and not monospaced.
+/// The font that has a letter and best suits the first of the fonts in use: upright, of similar weight, and not
+/// monospaced.
 fn fallback(letter: char, used: &[ID], faces: &Database) -> Option<ID> {
     let weight = used.first().and_then(|first| faces.face(*first)).map_or(400, |face| face.weight.0);
     let mut fitting: Vec<&FaceInfo> = faces.faces().filter(|face| !used.contains(&face.id)).collect();
@@ -235,7 +236,7 @@ fn own() -> Arc<Database> {
     Arc::clone(FACES.get_or_init(load))
 }
 
-/// The same with the system's fonts after them.
+/// The same database with the system's fonts added.
 fn with_system() -> Arc<Database> {
     static FACES: OnceLock<Arc<Database>> = OnceLock::new();
     let load = || {

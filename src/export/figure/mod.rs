@@ -1,4 +1,4 @@
-//! Drawings: a picture of the answer on a sheet that says what it shows, ready for print and for a slide.
+//! Drawings: a picture of the result on a sheet that says what it shows, ready for print or a slide.
 //!
 //! The picture is made cell by cell in Rust; all lines and text are one SVG, which resvg draws over it.
 
@@ -54,18 +54,18 @@ use scale::{Bands, NO_SHADOW, mix};
 /// What a camera's picture shows besides sun and shadow.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PictureExtras<'a> {
-    /// Shadow volumes and silhouette, over the picture.
+    /// Shadow volumes and silhouette, drawn over the picture.
     pub overlay: Option<&'a Overlay>,
-    /// Each component of [`FigureContext::mesh`] in its own colour; the slice says which of them cast.
+    /// Colours each component of [`FigureContext::mesh`] differently; the slice says which ones cast.
     pub casts: Option<&'a [bool]>,
-    /// How much work counting took, instead of sun and shadow; also in the plan's picture.
+    /// Shows the work of counting instead of sun and shadow; also possible for a plan.
     pub counted: Option<(&'a FragmentCounts, Diagram)>,
 }
 
 /// `profile.png`: the hours of shadow on the plan, in bands of whole steps.
 ///
 /// # Errors
-/// [`ExportError::Size`] where surface and profile do not fill the grid; [`ExportError::Encode`] from the encoder.
+/// [`ExportError::Size`] if surface and profile do not fill the grid; [`ExportError::Encode`] from the encoder.
 pub fn profile<S: SurfaceRows, C: ShadedCells>(
     scene: &FigureContext<S>,
     profile: &Profile<C>,
@@ -98,24 +98,24 @@ fn profile_panel<S, C>(scene: &FigureContext<S>, profile: &Profile<C>, kicker: &
     panel
 }
 
-/// The greatest memory that [`profile`] takes of what grows with the plan, bytes.
+/// The most memory that [`profile`] needs for what grows with the plan, bytes.
 pub(crate) fn profile_bytes(grid: &Grid) -> u64 {
-    // the sheet may be higher or wider than its picture, never the other way round
+    // the sheet may be higher or wider than its picture, never lower or narrower
     let fit = picture::Fit::within((grid.width, grid.height), (f64::from(WIDTH) / 2.0, f64::from(HEIGHT) / 2.0));
     picture::task_bytes(&fit) * page::tasks() as u64
 }
 
-/// One instant, the first of the track, on the plan or in the camera's picture. `shown` is laid over the camera's
+/// One instant, the first of the track, on the plan or in the camera's picture. `shown` is drawn over the camera's
 /// picture.
 ///
 /// # Errors
-/// [`ExportError::Size`] where surface and mask do not fill the view, or an overlay's rasters not the overlay;
-/// [`ExportError::Encode`] from the encoder, or where the track has no instant.
+/// [`ExportError::Size`] if surface and mask do not fill the view, or an overlay's rasters do not fill the overlay;
+/// [`ExportError::Encode`] from the encoder, or if the track has no instant.
 pub fn instant(scene: &FigureContext, view: &View, mask: &Mask, shown: &PictureExtras) -> Result<Vec<u8>, ExportError> {
     instant_as(scene, view, mask, shown, page::png)
 }
 
-/// The sheet of [`instant`], turned into a result by `finish`.
+/// The sheet of [`instant`], which `finish` turns into the result.
 fn instant_as<T>(
     scene: &FigureContext,
     view: &View,
@@ -168,7 +168,7 @@ fn instant_as<T>(
     }
 }
 
-/// Returns an error if what belongs to one picture differs in size.
+/// Returns an error if the rasters of one picture differ in size.
 fn check_instant(surface: &Surface, size: (u32, u32), mask: &Mask, shown: &PictureExtras) -> Result<(), ExportError> {
     check_size("mask", mask.share.len(), size.0, size.1)?;
     check_surface(surface, size)?;
@@ -193,7 +193,7 @@ fn instant_panel(scene: &FigureContext, view: &View, now: &Instant, shown: &Pict
     let mut panel = panel(scene, kicker);
     let seen = match view {
         View::Camera(_) => Some("what the camera sees"),
-        // the cut earth is not
+        // but not the earth that is cut
         View::Elevation(side) if side.is_level() => Some("what is seen above the ground"),
         View::Elevation(_) => Some("what the sun sees"),
         View::Plan(_) => None,
@@ -210,7 +210,7 @@ fn instant_panel(scene: &FigureContext, view: &View, now: &Instant, shown: &Pict
     panel
 }
 
-/// The legend of sun and shadow; `tones` are those of level ground in the sun and in the shade.
+/// The legend of sun and shadow; `tones` are the colours of level ground in the sun and in the shade.
 fn instant_legend(
     scene: &FigureContext,
     now: &Instant,
@@ -229,8 +229,9 @@ fn instant_legend(
     legend
 }
 
-/// The camera or side of a picture, and a pixel's side in metres if it is true to scale. A side and the sun are named in
-/// the panel.
+/// The camera or side of a picture, and the side of a pixel in metres if the picture is true to scale. A side and the sun are named in
+/// is named
+/// in the panel.
 fn lens(view: &View, panel: &mut Panel) -> Result<(perspective::PixelRays, Option<f64>), ExportError> {
     match view {
         View::Plan(_) => Err(ExportError::encode("drawing", "a plan has no lens")),
@@ -267,10 +268,10 @@ fn show(panel: &mut Panel, shown: &PictureExtras, ground: scale::Rgb, components
     }
 }
 
-/// The legend's entry for buildings where only the ground is judged.
+/// The legend's entry for buildings if only the ground is judged.
 const UNJUDGED: &str = "not judged";
 
-/// The name of the fact that a camera's view changes.
+/// The label of the fact that a camera's view replaces.
 const JUDGED: &str = "Judged";
 
 fn check_surface(surface: &Surface, (width, height): (u32, u32)) -> Result<(), ExportError> {
@@ -285,7 +286,7 @@ fn panel<S>(scene: &FigureContext<S>, kicker: &str) -> Panel {
     let nameless = name.is_empty();
     let title = if nameless { words::coordinates(place) } else { name };
     let mut facts = Vec::new();
-    // A place without a name has its coordinates as its title.
+    // A place without a name has its coordinates as the title.
     if !nameless {
         facts.push(("Place", words::coordinates(place)));
     }
@@ -356,8 +357,8 @@ fn sun_rows(place: &Place, track: &SunTrack) -> Vec<[String; 4]> {
     std::iter::once(at("start", first)).chain(noon).chain([at("end", last)]).collect()
 }
 
-/// For several days, the sun's greatest altitude at any instant of the day on which it is greatest, and of the day on
-/// which it is least.
+/// For several days: the sun's greatest altitude at any of the instants, on the day on which it is highest and on the
+/// day on which it is lowest.
 fn highest_rows(track: &SunTrack, row: impl Fn(&str, String, f64, f64) -> [String; 4]) -> Vec<[String; 4]> {
     let mut highest: Vec<&Instant> = Vec::new();
     for instant in &track.instants {
@@ -370,7 +371,7 @@ fn highest_rows(track: &SunTrack, row: impl Fn(&str, String, f64, f64) -> [Strin
             _ => highest.push(instant),
         }
     }
-    // a window's last instant may be the next day's midnight
+    // the last instant of a window may be midnight of the next day
     highest.retain(|instant| track.days.iter().any(|day| day.date == instant.time.date_naive()));
     let low_to_high = |a: &&&Instant, b: &&&Instant| a.altitude_rad.total_cmp(&b.altitude_rad);
     let told = [("highest", highest.iter().max_by(low_to_high)), ("lowest", highest.iter().min_by(low_to_high))];

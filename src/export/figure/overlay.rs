@@ -1,4 +1,4 @@
-//! Lays volumes and silhouette over a finished picture: translucent yellow, and black lines above it.
+//! Draws volumes and silhouette over a finished picture: translucent yellow, and black lines above it.
 
 use super::picture::{CellBorder, CellSpan, PagePicture, spans};
 use super::scale::{Rgb, mix};
@@ -6,17 +6,17 @@ use crate::look::LOOK;
 use crate::view::Overlay;
 use rayon::prelude::*;
 
-/// The opacity of that many layers.
+/// The opacity of this many layers.
 fn opacity(layers: u8) -> f64 {
     (1.0 - (1.0 - LOOK.layer).powi(i32::from(layers))).min(LOOK.most_layers)
 }
 
-/// The colour of sunny ground behind two volumes, with two walls each, for the legend.
+/// For the legend: the colour of sunny ground behind two volumes, which have two walls each.
 pub(super) fn volume_tone(ground: Rgb) -> Rgb {
     mix(ground, LOOK.volume, opacity(4))
 }
 
-/// Lays the overlay over the picture, averaged by area.
+/// Draws the overlay over the picture, averaged by area.
 pub(super) fn lay(picture: &mut PagePicture, overlay: &Overlay) {
     let opacities: [f32; 256] = std::array::from_fn(|layers| opacity(layers as u8) as f32);
     let (width, height) = (picture.width as usize, picture.height as usize);

@@ -1,4 +1,4 @@
-//! The layout of a sheet: A3 landscape, the picture as large as it can be, the panel beside or below it.
+//! The layout of a sheet: A3 landscape, the picture as large as possible, the panel beside or below it.
 
 use super::panel::{self, COLUMN, Panel};
 use super::paper::{HEIGHT, PAPER_METRES_A_PIXEL, WIDTH};
@@ -28,10 +28,10 @@ struct PageLayout {
 }
 
 /// Lays out and draws the page; `draw` makes the picture once its size is known. `cell_m` is absent in perspective.
-/// What the sheet becomes is `finish`'s to say: [`png`], as a rule.
+/// `finish` turns the sheet into the result, usually with [`png`].
 ///
 /// # Errors
-/// [`ExportError::Encode`] where the page cannot be drawn, and what `finish` says.
+/// [`ExportError::Encode`] if the page cannot be drawn, and the errors of `finish`.
 pub(super) fn page<P: Pixels, T>(
     panel: &Panel,
     cells: (u32, u32),
@@ -45,7 +45,7 @@ pub(super) fn page<P: Pixels, T>(
     let (width, height) = picture.size();
     let (left, top) = layout.corner;
     let (right, bottom) = (left + width, top + height);
-    // the frame and all that is said lie around the picture
+    // the frame and all text lie around the picture
     let around = [[0, 0, WIDTH, top], [0, top, left, bottom], [right, top, WIDTH, bottom], [0, bottom, WIDTH, HEIGHT]];
     let around = around.into_iter().filter(|[west, north, east, south]| west < east && north < south);
     let mut pieces = around.map(SheetPart::blank).collect::<Result<Vec<_>, _>>()?;
@@ -62,11 +62,12 @@ pub(super) fn whole(panel: &Panel, cells: (u32, u32), cell_m: f64, draw: impl Fn
     layout.overlay
 }
 
-/// As [`page`] with the panel beside it, for what fills all of its field but the margins (left, top, right, bottom).
-/// `draw` makes it for so many pixels, and lines and letters over it, which may reach into the margins.
+/// As [`page`] with the panel beside it, for a chart that fills all of its field except the margins (left, top, right,
+/// bottom). `draw` makes it for a given number of pixels, together with lines and letters over it, which may reach into
+/// the margins.
 ///
 /// # Errors
-/// [`ExportError::Encode`] where the page cannot be drawn or encoded.
+/// [`ExportError::Encode`] if the page cannot be drawn or encoded.
 pub(super) fn chart(
     panel: &Panel,
     [left, top, right, bottom]: [f64; 4],
@@ -94,7 +95,7 @@ pub(super) fn whole_chart(panel: &Panel, draw: impl FnOnce((u32, u32)) -> Block)
     layout.overlay
 }
 
-/// How much larger the picture must become for the panel to be put below it, where it is less convenient.
+/// How many times larger the picture must become to move the panel below it, where it is less convenient.
 const WORTH_IT: f64 = 1.12;
 
 /// Puts the panel beside the picture, or below a wide one.
@@ -107,7 +108,7 @@ fn beside_or_below(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> Pag
 /// The sheet within its frame: x, y, width and height.
 const SHEET: [f64; 4] = [MARGIN, MARGIN, WIDTH as f64 - 2.0 * MARGIN, HEIGHT as f64 - 2.0 * MARGIN];
 
-/// The field that a panel at the side leaves for the picture.
+/// The space for the picture if the panel is at the side.
 const BESIDE: [f64; 4] = [SHEET[0], SHEET[1], SHEET[2] - COLUMN - 2.0 * PAD, SHEET[3]];
 
 fn beside(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> PageLayout {
@@ -116,7 +117,7 @@ fn beside(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> PageLayout {
     layout
 }
 
-/// Puts the panel at the sheet's right.
+/// Puts the panel at the right of the sheet.
 fn stand_beside(panel: &Panel, metres_a_pixel: Option<f64>, overlay: &mut Block) {
     let x = BESIDE[0] + BESIDE[2];
     overlay.fill([x - 1.0, SHEET[1], 2.0, SHEET[3]], HAIR);
@@ -133,7 +134,7 @@ fn stand_beside(panel: &Panel, metres_a_pixel: Option<f64>, overlay: &mut Block)
     let taken: f64 = top.iter().chain(&foot).map(|block| block.height).sum();
     let gaps = (top.len() + foot.len()) as f64;
     let legend = panel::legend(panel, room - taken - gaps * GAP);
-    // What is left over spreads between the blocks; the foot stays at the sheet's foot.
+    // Spare height is distributed between the blocks; the footer stays at the bottom.
     let gap = ((room - taken - legend.height) / gaps).clamp(0.0, 76.0);
     let mut y = SHEET[1] + PAD;
     for (index, block) in top.iter().chain([&legend]).enumerate() {
@@ -155,11 +156,11 @@ fn stand_beside(panel: &Panel, metres_a_pixel: Option<f64>, overlay: &mut Block)
 
 fn below(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> PageLayout {
     const COLUMNS: f64 = 4.0;
-    /// The height from which a legend's rows stand closer.
+    /// The height of the legend from which its rows are set closer.
     const LEGEND: f64 = 475.0;
     let (title, facts, sun) = (panel::title(panel), panel::facts(panel), panel::sun_table(panel));
     let (legend, footer) = (panel::legend(panel, LEGEND), panel::footer(panel));
-    // The scale's block is as tall at any scale.
+    // The height of the scale's block does not depend on the scale.
     let scale_height = cell_m.map_or(0.0, |_| panel::scale_and_north(panel, 1.0).height + 2.0 * GAP);
     let height = [title.height + GAP + footer.height, facts.height, sun.height + scale_height, legend.height]
         .into_iter()
@@ -184,7 +185,7 @@ fn below(panel: &Panel, cells: (u32, u32), cell_m: Option<f64>) -> PageLayout {
     layout
 }
 
-/// Puts the picture in the middle of its field, and frames the sheet.
+/// Centres the picture in its field, and frames the sheet.
 fn with_picture(field: [f64; 4], cells: (u32, u32)) -> PageLayout {
     const AROUND: f64 = 36.0;
     let room = (field[2] - 2.0 * AROUND, field[3] - 2.0 * AROUND);
@@ -205,7 +206,7 @@ fn frame(layout: &mut PageLayout) {
 
 /// A part of the sheet with lines and text.
 struct SheetPart {
-    /// West, north, east and south on the page.
+    /// West, north, east and south on the page, pixels.
     place: [u32; 4],
     pixels: Pixmap,
 }
@@ -220,7 +221,7 @@ impl SheetPart {
         Ok(SheetPart { place, pixels })
     }
 
-    /// Lays a picture onto it; the part is then the page.
+    /// Copies a picture into the part.
     fn lay(&mut self, (left, top): (u32, u32), picture: &PagePicture) {
         let lines = self.pixels.data_mut().chunks_exact_mut(WIDTH as usize * 4).skip(top as usize);
         for (line, row) in lines.zip(picture.pixels.chunks_exact(picture.width as usize)) {
@@ -230,7 +231,7 @@ impl SheetPart {
         }
     }
 
-    /// Copies its part of a row of the page.
+    /// Copies this part's section of a row of the page.
     fn put(&self, row: u32, line: &mut [Rgb]) {
         let [west, north, east, south] = self.place;
         if (north..south).contains(&row) {
@@ -243,7 +244,7 @@ impl SheetPart {
     }
 }
 
-/// Draws all lines and text over what is there.
+/// Draws all lines and text over the parts.
 fn letter(overlay: &Block, pieces: &mut [SheetPart]) -> Result<(), ExportError> {
     let svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{HEIGHT}\" font-family=\"{}\">{}</svg>",
@@ -268,7 +269,7 @@ pub(super) fn part(block: &Block, (width, height): (u32, u32)) -> Result<Vec<Rgb
     Ok(piece.pixels.data().as_chunks::<4>().0.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect())
 }
 
-/// A sheet as SVG, of its size on A3. Where Noto Sans is missing, another plain font replaces it.
+/// A sheet as SVG, sized for A3. Without Noto Sans, another sans-serif font is used.
 pub(super) fn svg(sheet: &Block) -> String {
     let paper = hex(PAPER);
     format!(
@@ -280,10 +281,10 @@ pub(super) fn svg(sheet: &Block) -> String {
     )
 }
 
-/// The rows of a sheet that one task assembles.
+/// The number of rows that one task assembles.
 const BAND: usize = 64;
 
-/// Everything on a page, before it becomes a file. Its picture is drawn band by band.
+/// The content of a page before it becomes a file. Its picture is drawn band by band.
 pub(super) struct Sheet<'a> {
     pieces: Vec<SheetPart>,
     /// The picture with its north-west corner.
@@ -291,14 +292,14 @@ pub(super) struct Sheet<'a> {
 }
 
 impl Sheet<'_> {
-    /// A sheet with lines and text alone.
+    /// A sheet that has only lines and text.
     pub(super) fn of(sheet: &Block) -> Result<Sheet<'static>, ExportError> {
         let mut pieces = vec![SheetPart::blank([0, 0, WIDTH, HEIGHT])?];
         letter(sheet, &mut pieces)?;
         Ok(Sheet { pieces, picture: None })
     }
 
-    /// The rows of a band, assembled.
+    /// Draws and assembles the rows of a band.
     fn draw(&self, band: usize, rows: &mut [Rgb]) {
         let width = WIDTH as usize;
         let first = (band * BAND) as u32;
@@ -333,10 +334,10 @@ pub(super) fn tasks() -> usize {
     rayon::current_num_threads().min(8)
 }
 
-/// The sheet as a PNG of its size on paper. It is assembled band by band, while the bands before are compressed.
+/// The sheet as a PNG with its size on paper. Bands are assembled while previous ones are compressed.
 pub(super) fn png(sheet: &Sheet) -> Result<Vec<u8>, ExportError> {
     let width = WIDTH as usize;
-    // some at once, for as many processors
+    // several at once, for as many processors
     let at_once = tasks();
     let bands: Vec<usize> = (0..(HEIGHT as usize).div_ceil(BAND)).collect();
     let make = |bands: &[usize], rows: &mut Vec<Rgb>| {

@@ -7,13 +7,13 @@ use super::text;
 /// The width of the panel's column, page pixels.
 pub(super) const COLUMN: f64 = 790.0;
 
-/// The content of a panel.
+/// The content of the panel.
 pub(super) struct Panel {
-    /// The kind of drawing.
+    /// What kind of drawing it is.
     pub kicker: String,
     /// The place's name.
     pub title: String,
-    /// Date and window.
+    /// The date and the time window.
     pub lead: Vec<String>,
     /// Label and value.
     pub facts: Vec<(&'static str, String)>,
@@ -27,7 +27,7 @@ pub(super) struct Panel {
     pub keys: Vec<(Rgb, String)>,
     /// The tz version of the clock's rules.
     pub tz: String,
-    /// Whether north is up in the picture.
+    /// Whether the picture has north at the top.
     pub north_up: bool,
 }
 
@@ -38,7 +38,7 @@ pub(super) fn title(panel: &Panel) -> Block {
     wrapped(&mut block, 0.0, LetterStyle::KICKER, &panel.kicker, 1);
     block.height += 8.0;
     let lines = |style: LetterStyle, most| text::wrap(&panel.title, style.weight, style.size, COLUMN, most);
-    // A long name is set smaller before it is cut.
+    // A long name is set in a smaller size before it is shortened.
     let large = lines(LetterStyle::TITLE, 2);
     if large.iter().any(|line| line.ends_with('…')) {
         block.lines(0.0, LetterStyle::LONG_TITLE, &lines(LetterStyle::LONG_TITLE, 3));
@@ -56,7 +56,7 @@ pub(super) fn title(panel: &Panel) -> Block {
 const INDENT: f64 = 200.0;
 const FACT_LINES: usize = 3;
 
-/// Whether a fact's value fits completely.
+/// Whether the panel has room for the whole value of a fact.
 pub(super) fn holds(value: &str) -> bool {
     let lines = text::wrap(value, LetterStyle::BODY.weight, LetterStyle::BODY.size, COLUMN - INDENT, FACT_LINES);
     lines.join(" ") == value
@@ -94,7 +94,7 @@ pub(super) fn sun_table(panel: &Panel) -> Block {
     block
 }
 
-/// The width of a legend's colour beside its label, and the gap between them.
+/// The width of a colour beside its label in the legend, and the gap between the two.
 const SWATCH: f64 = 96.0;
 const SWATCH_GAP: f64 = 24.0;
 /// The distance between two columns of a legend.
@@ -105,7 +105,7 @@ const KEY: f64 = 7.0;
 /// The gap between the colours and the lines of a legend.
 const KEYS_GAP: f64 = 14.0;
 
-/// The rows of the legend: more than `most` short entries are in two columns.
+/// The number of rows of the legend: if there are more than `most` short entries, it has two columns.
 fn legend_rows(entries: &[(Rgb, String)], most: usize) -> usize {
     let room = COLUMN - HALF - SWATCH - SWATCH_GAP;
     let short =
@@ -113,7 +113,7 @@ fn legend_rows(entries: &[(Rgb, String)], most: usize) -> usize {
     if entries.len() > most && entries.iter().all(short) { entries.len().div_ceil(2) } else { entries.len() }
 }
 
-/// The legend with rows of at most `room` in height altogether, each between 36 and 52 high.
+/// The legend. Its rows are between 36 and 52 high, and together at most `room` if possible.
 pub(super) fn legend(panel: &Panel, room: f64) -> Block {
     const HEAD: f64 = 62.0;
     let rows = legend_rows(&panel.legend, 8);
@@ -191,7 +191,7 @@ fn paper_scale(metres_a_pixel: f64) -> String {
     format!("about 1 : {said} printed on A3")
 }
 
-/// Whole numbers in groups of three.
+/// A whole number in groups of three digits.
 pub(super) fn thousands(value: f64) -> String {
     let digits = format!("{value:.0}");
     let mut said = String::new();
@@ -218,7 +218,7 @@ impl ScaleBar {
     pub fn within(metres_a_pixel: f64, room: f64) -> ScaleBar {
         let most = metres_a_pixel * room;
         let power = 10_f64.powf(most.log10().floor());
-        // The last one stands in where rounding makes `most` a hair less than its own power of ten.
+        // The last one is used if rounding makes `most` slightly less than its own power of ten.
         let metres = [5.0, 2.0, 1.0, 0.5]
             .into_iter()
             .map(|digit| digit * power)
@@ -238,7 +238,7 @@ impl ScaleBar {
     }
 
     fn unit(&self) -> (f64, &'static str) {
-        // A hair off a power of ten is that power.
+        // Slightly less than a power of ten counts as that power.
         match self.metres * (1.0 + 1e-9) {
             m if m >= 1000.0 => (1e-3, "km"),
             m if m >= 1.0 => (1.0, "m"),
@@ -254,7 +254,7 @@ fn number(value: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// The footer: what computed the drawing, and how far to trust it.
+/// The footer: which program computed the drawing, and the advice to check it.
 pub(super) fn footer(panel: &Panel) -> Block {
     let mut block = Block::default();
     let by = format!("Gnomon {}, tz {}", env!("CARGO_PKG_VERSION"), panel.tz);

@@ -1,4 +1,4 @@
-//! The model coloured by hours of sun, as the camera sees it, or from a side.
+//! The model coloured by hours of sun, as the camera sees it or from a side.
 
 use super::panel::{Panel, thousands};
 use super::perspective::{PixelRays, facing};
@@ -14,8 +14,7 @@ use rayon::prelude::*;
 /// `surfaces.png`: the hours of sun on the patches that a camera or a side sees. The mesh of `scene` contains only
 /// receivers.
 ///
-/// # Errors
-/// [`ExportError::Size`] where the surface does not fill the view; [`ExportError::Encode`] from the encoder, and for a
+/// [`ExportError::Size`] if the surface does not fill the view; [`ExportError::Encode`] from the encoder, and for a
 /// plan.
 pub fn patches(scene: &FigureContext, view: &View, found: &PatchContext) -> Result<Vec<u8>, ExportError> {
     let size = view.size();
@@ -41,7 +40,7 @@ fn labelled(scene: &FigureContext, found: &PatchContext) -> Panel {
     panel
 }
 
-/// The meaning of the colours: a heading, and each of them, the most sun first.
+/// The meaning of the colours: a heading, and each colour with its label, the most sun first.
 pub fn legend(found: &PatchContext) -> (String, Vec<(Rgb, String)>) {
     let bands = found.bands();
     let head = match found.hours.day_secs {
@@ -59,10 +58,10 @@ pub fn legend(found: &PatchContext) -> (String, Vec<(Rgb, String)>) {
     (head, bands.chain(rest).collect())
 }
 
-/// The colour of each pixel. Those of the sky are not used.
+/// The colour of each pixel. The colours of sky pixels are not used.
 pub(super) fn painted(scene: &FigureContext, lens: &PixelRays, found: &PatchContext) -> Vec<Rgb> {
     let (patches, bands, samples) = (found.patches, found.bands(), found.hours.samples);
-    // the scene's faces are those of the components that receive
+    // the scene has only the faces of components that receive
     let atlas = Atlas::of(found);
     let width = scene.surface.width as usize;
     let colour = |pixel: usize| {

@@ -29,7 +29,7 @@ pub(super) fn instant(
     fit: Fit,
 ) -> PagePicture {
     if let Some(of_cells) = of_cells {
-        // lines would be taken for cells
+        // lines would be mistaken for cells
         return painted(scene, lens, of_cells, false, fit);
     }
     let light = SurfaceLight::new(to_sun);
@@ -59,7 +59,7 @@ pub(super) fn instant(
             display(at_night(to_sun, colour))
         })
         .collect();
-    // colours tell parts from each other, and lines upon lines would hide the colours of fine parts
+    // colours already distinguish the parts, and dense lines would hide the colours of fine ones
     let strength = if components.is_some() { LOOK.tinted_lines } else { 1.0 };
     let quieter = |pen: Pen| Pen { strength: pen.strength * strength, ..pen };
     compose(fit, CellBorder::Smooth, &colours, |a, b| pen(scene, lens, a, b).map(quieter))
@@ -88,12 +88,12 @@ pub(super) fn ground_tones(to_sun: DVec3) -> [Rgb; 2] {
     [1.0, 0.0].map(|share| display(at_night(to_sun, LOOK.ground * light.on(DVec3::Z, share))))
 }
 
-/// Dims and blues a colour for night.
+/// Darkens a colour and makes it bluish at night.
 fn at_night(to_sun: DVec3, colour: DVec3) -> DVec3 {
     if to_sun.z > 0.0 { colour } else { colour * LOOK.night }
 }
 
-/// The camera's axes, scaled so that a pixel's ray is a sum of them.
+/// The axes of the camera, scaled so that each pixel's ray is a linear combination of them.
 pub(super) struct PixelRays {
     forward: DVec3,
     right: DVec3,
@@ -112,7 +112,7 @@ impl PixelRays {
     pub(super) fn new(camera: &Camera) -> PixelRays {
         let sight = camera.target - camera.eye;
         let forward = sight.try_normalize().unwrap_or(DVec3::NEG_Z);
-        // A camera that looks along its own up still needs a right.
+        // A camera that looks along its up vector still needs an axis to the right.
         let right = forward.cross(camera.up).try_normalize().unwrap_or_else(|| forward.any_orthonormal_vector());
         let size = [f64::from(camera.width.max(1)), f64::from(camera.height.max(1))];
         let tall = (0.5 * camera.fov_rad).tan();
@@ -233,7 +233,7 @@ fn pen(scene: &FigureContext, lens: &PixelRays, a: usize, b: usize) -> Option<Pe
     }
     let building = |face: u32| face < Surface::GROUND;
     match (building(from), building(to)) {
-        // the ground's line is seen from a side alone
+        // only a side shows the ground's line
         (false, false) => lens.is_level.then_some(Pen::STEP),
         (true, true) => {
             let (from, to) = (facing(scene, from, lens.viewer), facing(scene, to, lens.viewer));
@@ -244,7 +244,8 @@ fn pen(scene: &FigureContext, lens: &PixelRays, a: usize, b: usize) -> Option<Pe
             };
             let gap = |pixel| depth(from, pixel) - depth(to, pixel);
             let (here, there) = (gap(a), gap(b));
-            // Planes that cross between the two pixels adjoin, however steep; else there is air between them.
+            // Planes that intersect between the two pixels adjoin, however steep they are; otherwise there is air
+            // between them.
             let least = lens
                 .side
                 .map_or_else(|| LOOK.step_share * depth(from, a).abs(), |(_, cell)| LOOK.side_step_pixels * cell);

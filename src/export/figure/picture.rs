@@ -1,4 +1,4 @@
-//! Cells → the page's pixels: colours are averaged by area, and lines drawn where neighbouring cells differ.
+//! From cells to the page's pixels: colours are averaged by area, and lines are drawn where neighbouring cells differ.
 
 use super::scale::Rgb;
 use crate::look::LOOK;
@@ -30,7 +30,7 @@ pub(super) trait Pixels: Sync {
     /// Columns and rows.
     fn size(&self) -> (u32, u32);
 
-    /// The rows from `top` on, as many as `into` holds.
+    /// Draws the rows from `top` on, as many as `into` holds.
     fn draw(&self, top: usize, into: &mut [Rgb]);
 }
 
@@ -55,7 +55,7 @@ impl Pixels for PagePicture {
     }
 }
 
-/// A raster of cells, and the page pixels that it fills.
+/// The size of a raster in cells and in page pixels.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fit {
     /// Columns and rows of cells.
@@ -90,7 +90,7 @@ pub(super) enum CellBorder {
 
 /// The pixel rows of one task.
 const BAND: usize = 64;
-/// How many pixel rows beside a task's have lines that reach into it.
+/// How many pixel rows above and below a task's rows can have lines that reach into them.
 const REACH: usize = Pen::OUTLINE.radius as usize + 2;
 /// The number of cells that a task reads at once.
 const AT_ONCE: usize = 1 << 18;
@@ -109,7 +109,7 @@ pub(super) struct Cells {
 }
 
 impl Cells {
-    /// No cells yet, with that many columns.
+    /// No cells yet; rows will have `width` columns.
     pub(super) fn new(width: u32) -> Cells {
         Cells { width: width as usize, ..Cells::default() }
     }
@@ -129,7 +129,7 @@ impl Cells {
         self.colours.extend(colours.map(|[r, g, b]| u32::from_le_bytes([r, g, b, 0])));
     }
 
-    /// As [`Cells::border`], for cells with keys: there is no line between cells of equal keys.
+    /// As [`Cells::border`], but without lines between cells that have equal keys.
     pub(super) fn border_of(&mut self, keys: &[u32], pen: impl Fn(usize, usize) -> Option<Pen>) {
         /// The number of columns that are compared at once.
         const AT_ONCE: usize = 32;
@@ -137,7 +137,7 @@ impl Cells {
         let rows = keys.len() / width.max(1);
         for row in 0..rows {
             let of_row = &keys[row * width..(row + 1) * width];
-            // below the last row there is nothing to part from
+            // the last row has no southern neighbours
             let below = if row + 1 < rows { &keys[(row + 1) * width..(row + 2) * width] } else { of_row };
             for from in (0..width).step_by(AT_ONCE) {
                 let to = (from + AT_ONCE).min(width);
@@ -154,7 +154,8 @@ impl Cells {
         }
     }
 
-    /// Requests the line between any two neighbours of `rows` rows: west and east, or north and south.
+    /// Adds the borders between all neighbours in `rows` rows; `pen` gets the west and the east cell, or the north and
+    /// the south cell.
     pub(super) fn border(&mut self, rows: usize, pen: impl Fn(usize, usize) -> Option<Pen>) {
         for row in 0..rows {
             for column in 0..self.width {
@@ -163,7 +164,7 @@ impl Cells {
         }
     }
 
-    /// Requests the lines on a cell's east and south side.
+    /// Adds the borders on a cell's east and south side.
     fn ask(&mut self, row: usize, column: usize, rows: usize, pen: impl Fn(usize, usize) -> Option<Pen>) {
         let cell = row * self.width + column;
         let (at, from) = (row as u32, column as u32);
@@ -176,7 +177,7 @@ impl Cells {
             && let Some(pen) = pen(cell, cell + self.width)
         {
             match self.south.last_mut() {
-                // one stroke for as many as are alike
+                // one stroke for all equal ones in a row
                 Some((last, _, to, its)) if (*last, *to, *its) == (at, from, pen) => *to += 1,
                 _ => self.south.push((at, from, from + 1, pen)),
             }
@@ -207,7 +208,7 @@ impl<F: Fn(Range<usize>, &mut Cells) + Sync> LazyRaster<F> {
         PagePicture { width, height, pixels }
     }
 
-    /// The rows of pixels whose cells are read at once: as many as are worth it, or one row.
+    /// The number of pixel rows whose cells are read at once, at least 1.
     fn at_once(fit: &Fit) -> usize {
         let rows = AT_ONCE / fit.cells.0.max(1) as usize;
         ((rows as f64 * f64::from(fit.pixels.1) / f64::from(fit.cells.1.max(1))) as usize).max(1)
@@ -226,7 +227,7 @@ impl<F: Fn(Range<usize>, &mut Cells) + Sync> Pixels for LazyRaster<F> {
         let (first, last) = (top.saturating_sub(REACH), (top + count + REACH).min(height));
         for from in (first..last).step_by(Self::at_once(&self.fit)) {
             let to = (from + Self::at_once(&self.fit)).min(last);
-            // and the row below, from which they part
+            // and the row below, for the borders to it
             let rows = self.rows[from].cells.start..(self.rows[to - 1].cells.end + 1).min(self.fit.cells.1 as usize);
             let mut cells = Cells::new(self.fit.cells.0);
             (self.tell)(rows.clone(), &mut cells);
@@ -242,7 +243,7 @@ impl<F: Fn(Range<usize>, &mut Cells) + Sync> Pixels for LazyRaster<F> {
 }
 
 impl<F> LazyRaster<F> {
-    /// Draws a row of pixels without its lines; the cells' rows begin with `first`.
+    /// Draws a row of pixels without its lines; the first row of `cells` is `first`.
     fn paint(&self, row: usize, first: usize, cells: &Cells, line: &mut [Rgb]) {
         let span = &self.rows[row];
         let of_row = |row: usize| &cells.colours[(row - first) * cells.width..][..cells.width];
@@ -251,7 +252,7 @@ impl<F> LazyRaster<F> {
             for (columns, pixel) in self.columns.iter().zip(line) {
                 let (west, east) = (columns.cells.start, columns.cells.end - 1);
                 let first = north[west];
-                // most of a picture is of one colour
+                // most pixels cover cells of one colour
                 let is_one = east - west < 2 && first == north[east] && first == south[west] && first == south[east];
                 *pixel = if is_one { rgb(first) } else { average(of_row, columns, span) };
             }
@@ -263,7 +264,7 @@ impl<F> LazyRaster<F> {
     }
 }
 
-/// The most memory that a task takes to draw that many cells, bytes: what they see, their heights, hours and colours.
+/// The most memory that one task needs for its cells, bytes: what they see, their heights, hours and colours.
 pub(super) fn task_bytes(fit: &Fit) -> u64 {
     let rows_a_pixel = f64::from(fit.cells.1) / f64::from(fit.pixels.1.max(1));
     let at_once = LazyRaster::<fn(Range<usize>, &mut Cells)>::at_once(fit).min(BAND + 2 * REACH);
@@ -293,7 +294,7 @@ fn rgb(packed: u32) -> Rgb {
     [r, g, b]
 }
 
-/// The cells that a pixel covers along one axis: from, to (exclusive), and the shares of the first and the last one.
+/// The cells that a pixel covers along one axis, and how much of the first and of the last one it covers.
 pub(super) struct CellSpan {
     pub cells: Range<usize>,
     first: f32,
@@ -309,7 +310,7 @@ pub(super) fn spans(cells: usize, pixels: usize, between: CellBorder) -> Vec<Cel
         .map(|pixel| {
             let (from, to) = (pixel as f64 * scale, (pixel + 1) as f64 * scale);
             let start = (from as usize).min(cells - 1);
-            // A sliver below a thousandth of a cell is rounding.
+            // Less than a thousandth of a cell is a rounding error.
             let end = ((to - 1e-3).ceil().max(0.0) as usize).clamp(start + 1, cells);
             CellSpan {
                 cells: start..end,
@@ -320,7 +321,7 @@ pub(super) fn spans(cells: usize, pixels: usize, between: CellBorder) -> Vec<Cel
         .collect()
 }
 
-/// The two cells between whose centres `at` lies, each with its weight.
+/// The two cells whose centres enclose `at`, each with its weight.
 fn blended(cells: usize, at: f64) -> CellSpan {
     let at = at.clamp(0.0, (cells - 1) as f64);
     let start = at as usize;
@@ -374,7 +375,7 @@ struct Ink {
 }
 
 impl Ink {
-    /// Draws the lines between cells, whose rows begin with `first`.
+    /// Draws the lines between cells; the first row of `cells` is `first`.
     fn lines(&mut self, fit: Fit, first: usize, cells: &Cells) {
         let scale = [fit.pixels.0 as f32 / fit.cells.0 as f32, fit.pixels.1 as f32 / fit.cells.1 as f32];
         let x = |column: u32| column as f32 * scale[0];
@@ -390,7 +391,7 @@ impl Ink {
     /// Draws a stroke with round ends, along one axis. Where strokes overlap, the stronger one counts.
     fn stroke(&mut self, from: [f32; 2], to: [f32; 2], pen: Pen) {
         let reach = pen.radius + 0.5;
-        // rounding down and up are library calls on processors without an instruction for them
+        // a cast, since floor and ceil are library calls on processors that have no instruction for them
         let low = |at: f32| (at - reach).max(0.0) as usize;
         let high = |at: f32, most: usize| {
             let at = (at + reach).max(0.0);

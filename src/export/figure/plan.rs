@@ -55,12 +55,12 @@ pub(super) fn instant(scene: &FigureContext, cell_m: f64, mask: &Mask, fit: Fit)
     )
 }
 
-/// The colours of the cells, without relief and lines, which would look like cells.
+/// Paints the cells without relief and lines, which would be mistaken for cells.
 pub(super) fn painted(of_cells: &[Rgb], fit: Fit) -> PagePicture {
     compose(fit, CellBorder::Sharp, of_cells, |_, _| None)
 }
 
-/// The hours of shadow after minus those before. What is gone keeps its lines.
+/// The hours of shadow after the change minus those before. What is gone keeps its lines.
 pub(super) fn difference<'a>(
     scenes: &'a [FigureContext; 2],
     of_cells: &'a [Rgb],
@@ -90,9 +90,9 @@ pub(super) fn difference<'a>(
     )
 }
 
-/// Colours by `flat`, of a cell's value and whether it is ground, as if all were level; `values` of some cells tells
-/// those counted from the first of them; slopes get their relief (of terrain and of roofs as strong as said), borders
-/// their lines, and `more` lines of some rows lie beside those.
+/// Draws a plan. `flat` gives the colour of a level cell from its value and from whether it is ground; `values` returns
+/// the values of a range of cells, indexed from its first cell. Slopes get relief, whose strengths for terrain and for
+/// roofs are given; borders get lines, and `more` adds further lines to a range of rows.
 fn draw<S: SurfaceRows, V: Copy + PartialEq, G: Fn(usize) -> V>(
     scene: &FigureContext<S>,
     cell_m: f64,
@@ -108,7 +108,7 @@ fn draw<S: SurfaceRows, V: Copy + PartialEq, G: Fn(usize) -> V>(
         let surface = &scene.surface.rows(rows.clone());
         let mesh = scene.mesh;
         let value = values(rows.start * width..rows.end * width);
-        // along a row the same is seen again and again
+        // neighbouring cells often see the same face
         let mut last = None;
         let colour = |(at, &seen): (usize, &u32)| {
             let value = value(at);
@@ -127,7 +127,7 @@ fn draw<S: SurfaceRows, V: Copy + PartialEq, G: Fn(usize) -> V>(
             colour
         };
         cells.paint(surface.face.iter().enumerate().map(colour));
-        // nearly all neighbours are one face
+        // nearly all neighbours see the same face
         cells.border_of(&surface.face, |a, b| pen(scene, surface, cell_m, a, b));
         more(rows, cells);
     })
@@ -138,9 +138,10 @@ fn face(surface: &Surface, cell: usize) -> Option<usize> {
     (face < Surface::GROUND).then_some(face as usize)
 }
 
-/// The normal of the side that the plan sees; straight up if the face has no area.
+/// The normal of a face on its upper side; straight up if the face has no area.
 fn upward(mesh: &Mesh, face: usize) -> DVec3 {
-    // a plan crosses each face's border a few times: to find the planes of all faces would take longer
+    // computed here, since a plan crosses the border of each face only a few times, and the planes of all faces would
+    // take longer
     let [a, b, c] = mesh.faces[face].map(|vertex| mesh.vertices[vertex as usize].as_dvec3());
     let normal = (b - a).cross(c - a).normalize_or_zero();
     if normal.z < 0.0 {
@@ -154,8 +155,7 @@ fn upward(mesh: &Mesh, face: usize) -> DVec3 {
 
 /// The direction of the light for relief, half-way between up and the highest sun of the study, so that relief and
 /// shadows agree.
-///
-/// Maps light relief from the north-west, but here that would darken the very roofs that have most sun.
+/// Maps usually light relief from the north-west, but here that would darken the roofs that get most sun.
 fn relief_light<S>(scene: &FigureContext<S>) -> DVec3 {
     let instants = scene.track.instants.iter();
     let highest = instants.max_by(|a, b| a.altitude_rad.total_cmp(&b.altitude_rad));
@@ -173,7 +173,7 @@ fn relief(normal: DVec3, light: DVec3, strength: f64) -> f64 {
 }
 
 fn shade(colour: Rgb, factor: f64) -> Rgb {
-    // level ground and roofs are most of a plan
+    // most of a plan is level ground and roofs
     if factor == 1.0 {
         return colour;
     }
@@ -187,11 +187,11 @@ pub(super) fn pen<S>(scene: &FigureContext<S>, surface: &Surface, cell_m: f64, a
     let east = b == a + 1;
     let half = if east { DVec3::X } else { DVec3::NEG_Y } * (0.5 * cell_m);
     let [from, to] = [a, b].map(|cell| face(surface, cell).map(|face| upward(mesh, face)));
-    // how much the faces rise over half a cell
+    // how much each face rises over half a cell
     let [rise_from, rise_to] = [from, to].map(|normal| rise(normal, half));
-    // a ridge between two centres is off by half a cell of slope
+    // at a ridge between two centres, the heights are off by the rise over half a cell
     let step_m = (0.5 * cell_m).clamp(LOOK.plan_step_least_m, LOOK.plan_step_most_m) + rise_from.abs() + rise_to.abs();
-    // where they meet
+    // the heights at the border
     let [height_from, height_to] = [a, b].map(|cell| f64::from(surface.height_m[cell]));
     let jump = (height_from + rise_from - (height_to - rise_to)).abs();
     let are_ground = [a, b].map(|cell| scene.is_ground(surface.face[cell]));

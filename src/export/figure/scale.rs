@@ -1,4 +1,4 @@
-//! The colour of an hour of shadow: bands of whole steps on an even scale that colour-blind people can read.
+//! The colours of hours of shadow: bands of whole steps on an even scale that colour-blind people can read.
 
 /// An sRGB colour.
 pub type Rgb = [u8; 3];
@@ -21,21 +21,21 @@ const DAVOS_REVERSED: [Rgb; 11] = [
     [0, 5, 74],
 ];
 
-/// The part of the map that is used: its light end is reserved for no shadow at all, its dark end for lines drawn over
-/// it.
+/// The part of the colour map that is used: its light end is reserved for no shadow at all, its dark end for lines
+/// drawn over it.
 const LIGHTEST: f64 = 0.16;
 const DARKEST: f64 = 0.88;
 
 /// No shadow at all: the paper's own colour, so that sunny ground stays quiet.
 pub const NO_SHADOW: Rgb = [254, 253, 249];
 
-/// No sun at all: a colour off the scale, so that it is not taken for a little sun.
+/// No sun at all: a colour off the scale, so that it is not mistaken for a little sun.
 pub(crate) const NO_SUN: Rgb = [70, 66, 74];
 
 /// The greatest number of bands; more are hard to tell apart.
 pub(crate) const MOST_BANDS: u32 = 16;
 
-/// Round durations for bands wider than a step, seconds: from a second to a hundred days of daylight.
+/// Round durations for bands wider than a step, in seconds: from a second to a hundred days of daylight.
 const ROUND_SECS: [u32; 27] = [
     1, 2, 5, 10, 15, 20, 30, 60, 120, 300, 600, 900, 1_200, 1_800, 3_600, 7_200, 10_800, 14_400, 21_600, 36_000,
     72_000, 180_000, 360_000, 720_000, 1_800_000, 3_600_000, 7_200_000,
@@ -53,15 +53,15 @@ pub struct Bands {
 }
 
 impl Bands {
-    /// Bands of one `step_secs` if these are few enough, otherwise of a round duration, which is a multiple of the step
-    /// if one fits.
+    /// Bands of one `step_secs` if that gives few enough; otherwise of a round duration, a multiple of the step if
+    /// possible.
     pub fn new(step_secs: u32, day_secs: u32) -> Bands {
         let band_secs = band_secs(step_secs, day_secs, MOST_BANDS);
         let count = day_secs.div_ceil(band_secs);
         Bands { band_secs, day_secs, colours: (0..count).map(|band| colour(band, count)).collect() }
     }
 
-    /// The colour of a shaded time in 1/255 s.
+    /// The colour of a time in shadow, in units of 1/255 s.
     pub fn colour(&self, shaded: u64) -> Rgb {
         if shaded == 0 {
             return NO_SHADOW;
@@ -69,7 +69,7 @@ impl Bands {
         // A shadow of exactly one band belongs to that band, not to the next.
         let (most, width) = (shaded - 1, 255 * u64::from(self.band_secs));
         let band = match (u32::try_from(most), u32::try_from(width)) {
-            // in half the time
+            // narrower integers divide in half the time
             (Ok(most), Ok(width)) => u64::from(most / width),
             _ => most / width,
         };
@@ -78,9 +78,9 @@ impl Bands {
         self.colours.get(band).copied().unwrap_or(NO_SHADOW)
     }
 
-    /// The same colours for time in the sun, the lightest for the most. `lit` is in seconds, counted once for every one
-    /// of `samples` that is seen. No sun at all has a colour of its own; a band contains its lower bound, the last one
-    /// all of the daylight.
+    /// The same colours for time in the sun, the lightest for the most. `lit` is in seconds, summed over the sun
+    /// samples that are seen, of `samples` in all. No sun at all has a colour of its own; a band contains its lower
+    /// bound, and the last one also the whole daylight.
     pub fn of_sun(&self, lit: u32, samples: u32) -> Rgb {
         if lit == 0 {
             return NO_SUN;
@@ -98,7 +98,7 @@ impl Bands {
     }
 }
 
-/// The width of bands of which there are at most that many, seconds.
+/// The width of bands in seconds, so that there are at most `most_bands`.
 pub(super) fn band_secs(step_secs: u32, all_secs: u32, most_bands: u32) -> u32 {
     let step = step_secs.max(1);
     let few = |secs: &u32| all_secs.div_ceil(*secs) <= most_bands;

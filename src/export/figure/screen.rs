@@ -1,4 +1,4 @@
-//! A drawing for a screen: the sheet as on paper, in fewer pixels.
+//! A drawing for a screen: the sheet as on paper, but with fewer pixels.
 
 use super::components::Components;
 use super::page::Sheet;
@@ -13,7 +13,7 @@ use glam::DVec3;
 use image::imageops::{self, FilterType};
 use image::{ImageBuffer, RgbImage};
 
-/// A drawing's pixels.
+/// The pixels of a drawing.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Screen {
     /// Columns.
@@ -36,8 +36,8 @@ impl Screen {
     }
 }
 
-/// As [`super::instant`], `width` pixels wide, 1 to [`WIDTH`], and as high as a sheet of that width: each pixel is the
-/// mean of the sheet's pixels under it.
+/// As [`super::instant`], but `width` pixels wide (1 to [`WIDTH`]) and as high as a sheet of that width: each pixel is
+/// the mean of the sheet's pixels under it.
 ///
 /// # Errors
 /// As [`super::instant`].
@@ -64,8 +64,8 @@ fn on_screen(sheet: &Sheet, width: u32) -> Result<Screen, ExportError> {
     Ok(Screen { width, height, pixels })
 }
 
-/// What a view shows of sun and shadow without a sheet around it: one pixel per cell, row 0 first. Of `shown` only the
-/// components' colours apply, in a camera's picture.
+/// Sun and shadow of a view without a sheet around them: one pixel per cell, row 0 first. Of `shown`, only the
+/// components' colours apply, and only in a camera's picture.
 pub fn bare(scene: &FigureContext, view: &View, mask: &Mask, to_sun: DVec3, shown: &PictureExtras) -> Vec<Rgb> {
     let fit = cell_by_cell(view);
     let lens = match view {
@@ -78,14 +78,15 @@ pub fn bare(scene: &FigureContext, view: &View, mask: &Mask, to_sun: DVec3, show
     perspective::instant(scene, &lens, mask, to_sun, painted, fit).pixels
 }
 
-/// As [`bare`], the hours of a plan.
+/// As [`bare`], but the hours of a plan.
 #[cfg(feature = "test-hooks")]
 pub fn bare_hours(scene: &FigureContext, profile: &crate::profile::Profile) -> Vec<Rgb> {
     let bands = super::scale::Bands::new(scene.track.step_secs, profile.day_secs);
     all(&plan::profile(scene, profile, &bands, cell_by_cell(&View::Plan(profile.grid))))
 }
 
-/// As [`bare`], the hours on the patches that a camera or a side sees; none for a plan, of which there is no drawing.
+/// As [`bare`], but the hours on the patches that a camera or a side sees. Nothing for a plan, which has no such
+/// drawing.
 #[cfg(feature = "test-hooks")]
 pub fn bare_patches(
     scene: &FigureContext,

@@ -1,10 +1,10 @@
-//! A block of the page: SVG in its own coordinates, and its height.
+//! A block of the page: SVG in coordinates of its own, and its height.
 
 use super::scale::Rgb;
 use super::text::{self, FontWeight};
 use std::fmt::Write;
 
-/// The colours of text, of secondary text, of hair lines, and the one accent.
+/// The colours of text, of secondary text and of hairlines, and the only accent colour.
 pub(super) const INK: Rgb = [35, 38, 44];
 pub(super) const GRAY: Rgb = [104, 108, 115];
 pub(super) const HAIR: Rgb = [188, 184, 174];
@@ -35,7 +35,7 @@ impl LetterStyle {
     }
 }
 
-/// The part of a line that lies at the given x.
+/// Which part of a line is at the given x.
 #[derive(Clone, Copy)]
 pub(super) enum TextAnchor {
     Start,
@@ -71,7 +71,7 @@ impl Block {
         ));
     }
 
-    /// Adds lines of text below what is there, each at x; the block grows.
+    /// Adds lines of text at x below the present content; the block grows.
     pub(super) fn lines(&mut self, x: f64, style: LetterStyle, lines: &[String]) {
         for line in lines {
             let baseline = self.height + style.size;
@@ -88,7 +88,7 @@ impl Block {
         ));
     }
 
-    /// A rectangle's line, completely outside of it.
+    /// A frame around a rectangle, completely outside of it.
     pub(super) fn frame(&mut self, [x, y, width, height]: [f64; 4], line: f64, colour: Rgb) {
         self.push(format_args!(
             "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{line}\"/>",
@@ -110,7 +110,7 @@ impl Block {
         self.push(format_args!("<polygon points=\"{list}\" fill=\"{}\"/>", hex(colour)));
     }
 
-    /// A line through points; nothing without points.
+    /// A line through points, or nothing if there are none.
     pub(super) fn polyline(&mut self, points: &[[f64; 2]], line: f64, colour: Rgb) {
         if points.is_empty() {
             return;
@@ -126,7 +126,7 @@ impl Block {
         ));
     }
 
-    /// The line of a circle.
+    /// The outline of a circle.
     pub(super) fn ring(&mut self, x: f64, y: f64, radius: f64, line: f64, colour: Rgb) {
         self.push(format_args!(
             "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{line}\"/>",
@@ -134,7 +134,7 @@ impl Block {
         ));
     }
 
-    /// Adds another block, moved; the height of this one stays.
+    /// Adds another block at an offset; the height of this one does not change.
     pub(super) fn place(&mut self, x: f64, y: f64, block: &Block) {
         self.push(format_args!("<g transform=\"translate({x:.1} {y:.1})\">{}</g>", block.svg));
     }

@@ -10,14 +10,14 @@ pub(super) enum FontWeight {
     Bold,
 }
 
-/// The width of a line, in the unit of `size`. Kerning, which only tightens, is left out.
+/// The width of a line, in the unit of `size`. Kerning, which can only make it narrower, is ignored.
 pub(super) fn width(text: &str, weight: FontWeight, size: f64) -> f64 {
     let face = match weight {
         FontWeight::Regular => notosans::REGULAR_TTF,
         FontWeight::Bold => notosans::BOLD_TTF,
     };
     let letters = text.chars();
-    // What the face lacks, another one draws, or it is a box: about as wide as the widest letters.
+    // A letter that the font lacks is drawn by another font, or as a box: about as wide as the widest letters.
     let guess = size;
     let Ok(font) = FontRef::new(face) else {
         return guess * letters.count() as f64;
@@ -27,7 +27,7 @@ pub(super) fn width(text: &str, weight: FontWeight, size: f64) -> f64 {
     letters.map(|letter| map.map(letter).and_then(|glyph| metrics.advance_width(glyph)).map_or(guess, f64::from)).sum()
 }
 
-/// One line of plain text: no control characters, no runs of blanks.
+/// Text as one line without control characters or repeated blanks.
 pub(super) fn clean(text: &str) -> String {
     let printable = |c: char| {
         if c.is_control() || matches!(c, '\u{FFFE}' | '\u{FFFF}') { ' ' } else { c }
@@ -36,7 +36,7 @@ pub(super) fn clean(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Breaks the text into at most `most` lines of `room`. What does not fit becomes an ellipsis.
+/// Breaks the text into at most `most` lines of width `room`. What does not fit is replaced by an ellipsis.
 pub(super) fn wrap(text: &str, weight: FontWeight, size: f64, room: f64, most: usize) -> Vec<String> {
     let fits = |line: &str| width(line, weight, size) <= room;
     let mut lines: Vec<String> = Vec::new();
@@ -54,7 +54,7 @@ pub(super) fn wrap(text: &str, weight: FontWeight, size: f64, room: f64, most: u
         let rest = lines.split_off(most.max(1) - 1).join(" ");
         lines.push(rest);
     }
-    // A single word may still be too long, in any line.
+    // A single word may still be too long in any line.
     lines.iter().map(|line| ellipsis(line, weight, size, room)).collect()
 }
 
@@ -76,8 +76,8 @@ fn ellipsis(line: &str, weight: FontWeight, size: f64, room: f64) -> String {
     format!("{}…", kept.trim_end())
 }
 
-/// Two names in few enough letters to fit, but still different: without the folders that both begin with, then with an
-/// ellipsis in the middle, or, if they are alike there, before the first difference.
+/// Shortens two names so that they fit but still differ: without the folders that both begin with, then with an
+/// ellipsis in the middle or, if that makes them equal, before the first difference.
 pub(super) fn told_apart(names: &[String; 2], fits: impl Fn(&str) -> bool) -> [String; 2] {
     let names = names.each_ref().map(|name| clean(name));
     if names.iter().all(|name| fits(name)) {
@@ -101,7 +101,7 @@ pub(super) fn told_apart(names: &[String; 2], fits: impl Fn(&str) -> bool) -> [S
     [one, other].map(|name| format!("…{}", &name[differs..]))
 }
 
-/// The name if it fits, otherwise as much of its beginning and its end as fits.
+/// The name if it fits, otherwise its beginning and its end with an ellipsis between them.
 pub fn without_middle(name: &str, fits: impl Fn(&str) -> bool) -> String {
     if fits(name) {
         return name.to_owned();

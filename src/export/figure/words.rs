@@ -1,4 +1,4 @@
-//! How a drawing words things: places, times, durations, techniques.
+//! How drawings word places, times, durations and techniques.
 
 use crate::choice::{Finder, Receivers, Settings};
 use crate::profile::Provenance;
@@ -15,10 +15,10 @@ pub(super) fn coordinates(place: &Place) -> String {
     format!("{}, {}", side(place.latitude_deg, 'N', 'S'), side(place.longitude_deg, 'E', 'W'))
 }
 
-/// A number of metres to four digits, without trailing zeros.
+/// A number of metres with four digits, without trailing zeros.
 pub(super) fn metres(value: f64) -> String {
     let decimals = 3.0 - value.abs().max(1e-9).log10().floor();
-    // At least one, so that no whole number loses its zeros.
+    // At least one decimal, so that no whole number loses its zeros.
     let text = format!("{value:.*}", decimals.clamp(1.0, 9.0) as usize);
     let text = text.trim_end_matches('0').trim_end_matches('.');
     format!("{} m", if text == "-0" { "0" } else { text }).replace('-', "−")
@@ -136,12 +136,12 @@ pub(crate) fn duration(secs: u32) -> String {
 /// The duration from which minutes are left out, seconds.
 pub(super) const MANY_HOURS_SECS: u32 = 100 * 3600;
 
-/// As [`duration`]; long ones without minutes.
+/// As [`duration`], but long ones without minutes.
 pub(super) fn long_duration(secs: u32) -> String {
     if secs < MANY_HOURS_SECS { duration(secs) } else { format!("{} h", (f64::from(secs) / 3600.0).round()) }
 }
 
-/// `1:30`, with seconds only where `with_secs`.
+/// `1:30`; with seconds only if `with_secs`.
 pub(super) fn hours(secs: u32, with_secs: bool) -> String {
     let (h, m, s) = (secs / 3600, secs / 60 % 60, secs % 60);
     if with_secs { format!("{h}:{m:02}:{s:02}") } else { format!("{h}:{m:02}") }
@@ -162,7 +162,7 @@ pub(super) fn day(day: &Day) -> String {
     parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
 }
 
-/// What drew the answer, in words: technique, silhouettes, machine.
+/// How the result was computed, in words: technique, silhouettes, machine.
 pub(super) fn technique(drawn: &Provenance) -> String {
     let technique = drawn.technique.row().name;
     let silhouettes = drawn.finder.map(|finder| match finder {

@@ -1,8 +1,7 @@
 //! `surfaces.glb`: the model with its hours of sun as textures, a binary glTF 2.0 file that any model viewer opens.
-//!
-//! It has one node per component and one primitive per page of the atlas; what does not receive is plain. The colours
-//! are those of the drawing, without the viewer's own light and shade (KHR_materials_unlit). Beside each page's colours
-//! lies a texture of the numbers in 16-bit gray; `extras` of the scene say how many seconds a unit is.
+//! It has one node per component and one primitive per page of the atlas; components that do not receive are plain. The
+//! colours are those of the drawing, without shading by the viewer (KHR_materials_unlit). Each page also has a texture
+//! with the numbers in 16-bit gray; `extras` of the scene say how many seconds a unit stands for.
 
 use super::{Exposure, PatchContext, pages};
 use crate::export::ExportError;
@@ -18,7 +17,7 @@ use rustc_hash::FxHashMap;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
-/// Numbers of the format (glTF 2.0, section 5).
+/// Constants of the format (glTF 2.0, section 5).
 const NEAREST: u32 = 9728;
 const LINEAR: u32 = 9729;
 const CLAMP_TO_EDGE: u32 = 33071;
@@ -32,7 +31,7 @@ const NO_NUMBER: u16 = u16::MAX;
 /// The content of the file.
 ///
 /// # Errors
-/// [`ExportError::Encode`] where nothing receives, or where the file would be 4 GiB or larger.
+/// [`ExportError::Encode`] if nothing receives, or if the file would be 4 GiB or larger.
 pub fn glb(found: &PatchContext) -> Result<Vec<u8>, ExportError> {
     if found.patches.list.is_empty() {
         return Err(refused("no surface receives; check `receives`"));
@@ -79,7 +78,7 @@ fn refused(why: impl ToString) -> ExportError {
     ExportError::encode(WHAT, why)
 }
 
-/// The seconds of a unit in the textures of numbers, so that the window's daylight fits.
+/// How many seconds a unit in the textures of numbers stands for, so that the whole daylight fits.
 fn seconds_a_unit(found: &PatchContext) -> u32 {
     found.hours.day_secs.div_ceil(u32::from(NO_NUMBER) - 1).max(1)
 }
@@ -110,9 +109,9 @@ fn material(page: usize) -> Value {
     })
 }
 
-/// The material of what does not receive: the drawing's colour of what is not judged.
+/// The material of components that do not receive, in the drawing's colour for "not judged".
 fn not_judged() -> Value {
-    // to linear light, as the format asks for
+    // to linear light, as the format requires
     let [red, green, blue] = LOOK.not_judged.map(|value| (f64::from(value) / 255.0).powf(2.2));
     json!({
         "name": "not judged",
@@ -124,7 +123,7 @@ fn not_judged() -> Value {
     })
 }
 
-/// What the file is assembled from.
+/// The file while it is assembled.
 #[derive(Default)]
 struct SurfaceFile {
     glb: GlbFile,
@@ -155,8 +154,8 @@ impl SurfaceFile {
         ])
     }
 
-    /// A component's patches, one primitive per page. Patches share no vertices, since each has its own place in its
-    /// page.
+    /// The patches of a component, one primitive per page. Patches share no vertices, since each has its own texture
+    /// coordinates.
     fn primitives(&mut self, found: &PatchContext, patches: &[Patch]) -> Vec<Value> {
         let mut of_pages: BTreeMap<u32, Vec<&Patch>> = BTreeMap::new();
         patches.iter().for_each(|patch| of_pages.entry(patch.page).or_default().push(patch));
@@ -194,7 +193,7 @@ impl SurfaceFile {
     }
 }
 
-/// A patch's faces, wound so that their fronts are on the judged side.
+/// Adds the faces of a patch, wound so that their fronts are on the judged side.
 fn append(
     found: &PatchContext,
     patch: &Patch,

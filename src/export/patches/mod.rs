@@ -1,4 +1,4 @@
-//! The hours of sun on the model's patches as files: `surfaces.csv` for numbers, `surfaces.glb` for the eye. The
+//! The hours of sun on the model's patches as files: numbers in `surfaces.csv`, a coloured model in `surfaces.glb`. The
 //! drawing is [`figure::patches`](super::figure::patches).
 
 mod glb;
@@ -16,18 +16,18 @@ use crate::sun::{Place, SunTrack};
 use crate::sunlight::{Exposure, PatchHours};
 use std::fmt::Write;
 
-/// The answer on patches, and its context.
+/// The hours of sun on patches, with their context.
 #[derive(Clone, Copy, Debug)]
 pub struct PatchContext<'a> {
     /// The place on Earth.
     pub place: &'a Place,
     /// The instants studied.
     pub track: &'a SunTrack,
-    /// The mesh to which the patches belong.
+    /// The mesh that has the patches.
     pub mesh: &'a Mesh,
-    /// For each of its components, whether it receives.
+    /// For each component of the mesh, whether it receives.
     pub receives: &'a [bool],
-    /// The patches of the receivers.
+    /// The patches of the components that receive.
     pub patches: &'a Patches,
     /// Their time in the sun.
     pub hours: &'a PatchHours,
@@ -49,12 +49,11 @@ impl PatchContext<'_> {
     }
 }
 
-/// `surfaces.csv`: for each component a line, whose patch is `all`, and after it a line for each of its patches,
-/// numbered from 1, the largest first. Lines end in CR LF (RFC 4180).
-///
-/// Areas are square metres, hours those of sun; azimuths clockwise from true north, absent where a patch is level or
-/// where there are many; tilts 0 for what looks up, 90 for walls, 180 for what looks down; shares, 0 to 1, are the part
-/// of the area with at least so many hours.
+/// `surfaces.csv`: for each component a line with the patch `all`, then a line for each of its patches, numbered from
+/// 1, the largest first. Lines end in CR LF (RFC 4180).
+/// Areas are in square metres; hours are hours of sun. Azimuths are clockwise from true north, and absent for level
+/// patches and in lines for `all`. Tilts are 0 for surfaces that face up, 90 for walls, 180 for surfaces that face
+/// down. Shares, 0 to 1, are the part of the area that has at least the hours in the column's name.
 pub fn csv(found: &PatchContext) -> String {
     let mut text = "component,patch,area_m2,azimuth_deg,tilt_deg,hours_mean,hours_min,hours_max,\
                     share_1h,share_2h,share_3h,share_4h\r\n"
@@ -80,10 +79,10 @@ pub fn csv(found: &PatchContext) -> String {
     text
 }
 
-/// Degrees from 0 to below 360, so that north has one spelling.
+/// An angle from 0 to below 360 degrees, so that north is always 0.
 fn azimuth_text(azimuth_deg: f64) -> String {
     let hundredths = (azimuth_deg * 100.0).round().rem_euclid(36_000.0);
-    // + 0 makes −0 and 0 one
+    // + 0 turns −0 into 0
     format!("{:.2}", hundredths / 100.0 + 0.0)
 }
 

@@ -1,5 +1,5 @@
-//! The atlas as rasters. The texels have their own values, and the space between and around them has those of their
-//! neighbours, so that no picture shows an edge where a texel's centre lies just beside its faces.
+//! The atlas as rasters. The space between and around texels takes the values of their neighbours, so that no picture
+//! shows an edge where the centre of a texel lies just beside its faces.
 
 use super::PatchContext;
 use crate::export::figure::scale::{Bands, NO_SUN, Rgb};
@@ -8,7 +8,7 @@ use crate::sunlight::PatchHours;
 use glam::DVec3;
 use std::collections::VecDeque;
 
-/// The answer as it is seen: the patch of each face, and the value of each texel.
+/// The hours of sun for drawing: the patch of each face, and the value of each texel.
 pub struct Atlas {
     /// The patch of each face of the components that receive.
     pub patch_of: Vec<Option<u32>>,
@@ -17,7 +17,7 @@ pub struct Atlas {
 }
 
 impl Atlas {
-    /// The atlas of an answer.
+    /// Makes the atlas.
     pub fn of(found: &PatchContext) -> Atlas {
         let patches = found.patches;
         let mut patch_of = vec![None; found.mesh.faces.len()];
@@ -32,17 +32,17 @@ impl Atlas {
         Atlas { patch_of, pages: pages(patches, found.hours) }
     }
 
-    /// The patch of a face, if the face's judged side looks along `facing`.
+    /// The patch of a face, if the judged side of the face looks in the direction `facing`.
     pub fn patch<'a>(&self, patches: &'a Patches, face: u32, facing: DVec3) -> Option<&'a Patch> {
         let number = self.patch_of.get(face as usize).copied().flatten()?;
         let patch = &patches.list[number as usize];
         (patch.two_sided || patch.normal().dot(facing) > 0.0).then_some(patch)
     }
 
-    /// The value of the texel that contains a point around [`Patches::origin`], on a patch.
+    /// The value of the texel of a patch that contains a point; the point is relative to [`Patches::origin`].
     pub fn lit(&self, patches: &Patches, patch: &Patch, point: DVec3) -> u32 {
         let place = patches.in_page(patch, point);
-        // a pixel's centre may lie a hair beside the face that it sees
+        // the centre of a pixel may lie slightly beside the face that it sees
         let [low, high] = [[patch.x, patch.y], [patch.x + patch.width - 1, patch.y + patch.height - 1]];
         let within = |axis: usize| (place[axis] as u32).clamp(low[axis], high[axis]) as usize;
         self.pages[patch.page as usize][within(1) * patches.page_size as usize + within(0)]
@@ -76,8 +76,8 @@ pub(crate) fn pages(patches: &Patches, hours: &PatchHours) -> Vec<Vec<u32>> {
     pages
 }
 
-/// Gives each empty texel within a patch's rectangle and its gutter the value of the texel that is the fewest steps
-/// away.
+/// Gives each empty texel in the rectangle of a patch and in its gutter the value of the nearest texel, counted in
+/// steps.
 fn spread(patch: &Patch, page: &mut [u32], side: usize, mut spreading: VecDeque<usize>) {
     let (left, right) = ((patch.x - GUTTER) as usize, (patch.x + patch.width + GUTTER) as usize);
     let (top, bottom) = ((patch.y - GUTTER) as usize, (patch.y + patch.height + GUTTER) as usize);

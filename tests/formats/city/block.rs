@@ -1,4 +1,4 @@
-//! The building: an L of 10 × 20 × 30 m, off the middle, so that no mirrored or turned reading looks like it.
+//! The building: an L of 10 × 20 × 30 m off the centre, so that any mirrored or turned reading differs.
 
 use glam::DVec3;
 use gnomon::formats::{Model, ReadOptions, read};
@@ -26,7 +26,7 @@ pub(super) fn faces() -> Vec<(&'static str, Vec<usize>)> {
     faces
 }
 
-/// What triangles say of a body: corners in order, area, volume, and the middle of the volume.
+/// A body as described by its triangles: corners in order, area, volume, and the centre of the volume.
 #[derive(Debug)]
 pub(super) struct Body {
     corners: Vec<[i64; 3]>,
@@ -61,14 +61,14 @@ impl Body {
         self.volume
     }
 
-    /// Whether it is another body, so many times as large.
+    /// Whether it equals another body scaled by a factor.
     pub(super) fn is_like(&self, other: &Body, times: f64) -> bool {
         (self.volume / other.volume / times.powi(3) - 1.0).abs() < 1e-9
             && (self.middle / times).distance(other.middle) < 1e-6
     }
 }
 
-/// Errs where a model is not the building at a place.
+/// Returns an error if a model is not the building at a place.
 pub(super) fn difference(model: &Model, at: DVec3) -> Result<(), String> {
     let body = Body::of(model, at);
     let mut corners: Vec<[i64; 3]> =
@@ -82,7 +82,7 @@ pub(super) fn difference(model: &Model, at: DVec3) -> Result<(), String> {
     if is_same { Ok(()) } else { Err(format!("{body:?}")) }
 }
 
-/// Fails where a model is not the building at [`AT`].
+/// Fails if a model is not the building at [`AT`].
 #[track_caller]
 pub(super) fn assert_is_block(model: &Model) {
     if let Err(body) = difference(model, AT) {

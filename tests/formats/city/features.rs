@@ -1,4 +1,4 @@
-//! The features of tiles: what a batch table or a property table calls them, each is a component.
+//! The features of tiles: each feature that a batch table or a property table names becomes a component.
 
 use super::block::model_of;
 use super::files::b3dm;

@@ -1,4 +1,4 @@
-//! Writers of shapefiles, FlatGeobuf and 3D Tiles, as small as they can be.
+//! Minimal writers of shapefiles, FlatGeobuf and 3D Tiles.
 
 /// A ring of plan, closed, clockwise as shapefiles have outlines.
 pub(super) type Ring = Vec<[f64; 2]>;

@@ -1,4 +1,4 @@
-//! 3D Tiles whose tiles are not written out.
+//! 3D Tiles with implicit tiling.
 
 use super::block::left_out;
 use super::features::batched_file;

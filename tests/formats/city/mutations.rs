@@ -1,4 +1,4 @@
-//! A small file of each format, damaged in a thousand ways: each is read or refused, and soon.
+//! A small file of each format, damaged in a thousand ways: each is read or refused, and quickly.
 
 use super::block::AT;
 use super::files::b3dm;

@@ -1,4 +1,4 @@
-//! Notes on footprints name the first of them, and count the others.
+//! Notes about footprints name the first of them and count the others.
 
 use super::block::model_of;
 use super::osm::houses;

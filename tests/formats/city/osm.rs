@@ -1,4 +1,4 @@
-//! What OpenStreetMap's keys say of a footprint: how high it is, and what it is.
+//! What OpenStreetMap's keys say about a footprint: its height, and what it is.
 
 use super::block::{AT, left_out, model_of, names, written};
 use super::footprints::{collection, feature, square, volume};
@@ -15,7 +15,7 @@ pub(super) fn houses(properties: &[Value]) -> Value {
     collection(&each.collect::<Vec<_>>())
 }
 
-/// From where to where the only house reaches; none where there is none.
+/// The bottom and the top of the house with these properties; none if it was left out.
 fn reach(properties: Value) -> Option<(f64, f64)> {
     let model = model_of("a.geojson", houses(&[properties, json!({"height": 1, "name": "other"})]).to_string());
     let own = model.parts.iter().find(|part| part.name != "other")?;
@@ -109,7 +109,7 @@ fn guesses_are_told_with_how_many() {
     assert!(notes.iter().any(|note| note.contains("2 footprints") && note.contains("11 m")), "{notes:?}");
 }
 
-/// What is written and cannot be read is told, whether something else stands instead or not.
+/// Unreadable values are reported, whether or not there is a substitute.
 #[test]
 fn heights_and_bottoms_that_cannot_be_read_are_told() {
     let notes = |properties: Value| {

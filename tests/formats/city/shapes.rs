@@ -1,4 +1,4 @@
-//! The building as CityJSON's geometries.
+//! The building in each of CityJSON's geometry types.
 
 use super::block::{AT, corners, faces, model_of};
 use gnomon::formats::Model;

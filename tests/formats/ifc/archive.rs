@@ -1,4 +1,4 @@
-//! Zipped files: read, and refused where they are broken or a bomb.
+//! Zipped files: they are read, or refused if they are damaged or a zip bomb.
 
 use super::house::house;
 use super::{notes, read_as};

@@ -1,4 +1,4 @@
-//! Files that were made to hurt. The reader is others' code: what it does wrong is one error, in this process too.
+//! Malicious files. The reader is a third-party library: any failure in it becomes one error, in this process, too.
 
 use super::house::house;
 use super::{HEAD, read_as};

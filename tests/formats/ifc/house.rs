@@ -1,5 +1,5 @@
-//! A small IFC file, in millimetres: a site, a storey, a block with a pocket cut into it, a window of oak and glass, and
-//! what does not stand there.
+//! A small IFC file in millimetres: a site, a storey, a block with a recess, a window of oak and glass, and objects
+//! that are not solid.
 
 /// What a file says of itself, up to its schema.
 pub(super) const HEAD: &str = "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\n\

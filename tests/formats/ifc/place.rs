@@ -1,4 +1,4 @@
-//! Where a file says that its zero lies, and which way north is.
+//! The position of a file's origin on Earth, and the direction of north.
 
 use super::house::house;
 use super::{notes, read};

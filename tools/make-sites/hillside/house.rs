@@ -1,5 +1,5 @@
-//! The house as IFC4, in millimetres: two storeys of walls with openings, windows in them, floors and a roof; and the rooms,
-//! which do not stand there.
+//! The house as IFC4, in millimetres: two storeys of walls with openings, windows in them, floors and a roof; and the
+//! rooms, which are not solid.
 
 use super::step::{Line, Step, list};
 use super::{EASTING, NORTHING, height};

@@ -1,5 +1,5 @@
-//! A house on a slope in Salzburg, as an architect gets it: the house as IFC, its neighbours as footprints, the terrain as a
-//! raster. Each has coordinates of its own; that they meet is what the site tests.
+//! A house on a slope in Salzburg, with the files that an architect gets: the house as IFC, its neighbours as
+//! footprints, the terrain as a raster. Each file has coordinates of its own; the site tests that they meet.
 
 mod footprints;
 mod house;

@@ -1,4 +1,4 @@
-//! The lines of a STEP file, numbered as they are written.
+//! The lines of a STEP file, numbered in the order of writing.
 
 use std::fmt::Write as _;
 

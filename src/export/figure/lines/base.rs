@@ -10,14 +10,14 @@ use crate::look::LOOK;
 use crate::view::{Grid, SurfaceRows};
 use rayon::prelude::*;
 
-/// The buildings of a plan.
+/// The base of a line drawing: the buildings of a plan, and the borders of what cells see.
 pub(super) struct Base {
     width: u32,
     height: u32,
     ground_only: bool,
     /// For each cell, whether it sees a building.
     buildings: Vec<bool>,
-    /// For each cell, whether something steps up or down on its east side, and on its south side.
+    /// For each cell, whether the height jumps at its east side and at its south side.
     steps: [Vec<bool>; 2],
     /// Lines between cells: from and to in cells, and the pen.
     strokes: Vec<([u32; 2], [u32; 2], Pen)>,
@@ -27,7 +27,7 @@ pub(super) struct Base {
 
 impl Base {
     pub(super) fn new<S: SurfaceRows>(scene: &FigureContext<S>, grid: &Grid) -> Base {
-        /// The rows of one task.
+        /// How many rows one task handles.
         const BAND: usize = 64;
         let (width, height) = (grid.width, grid.height);
         let bands: Vec<_> = (0..height as usize).step_by(BAND).collect();
@@ -69,7 +69,7 @@ impl Base {
         down.sort_by_key(|&(row, column, _)| (column, row));
         for (row, column, pen) in down {
             match strokes.last_mut() {
-                // one stroke for as many as are alike
+                // one stroke for all equal ones in a row
                 Some((_, to, its)) if (*to, *its) == ([column + 1, row], pen) => *to = [column + 1, row + 1],
                 _ => strokes.push(([column + 1, row], [column + 1, row + 1], pen)),
             }
@@ -86,7 +86,7 @@ impl Base {
         self.steps[usize::from(b != a + 1)][a]
     }
 
-    /// Whether nothing except the sun separates two neighbours, and both are judged.
+    /// Whether two neighbouring cells are both judged and only the sun can separate them.
     pub(super) fn open(&self, a: usize, b: usize) -> bool {
         let is_judged = |cell: usize| !(self.ground_only && self.buildings[cell]);
         !self.is_step(a, b) && is_judged(a) && is_judged(b)
@@ -98,7 +98,7 @@ impl Base {
         contours(&ScalarField { width: self.width, height: self.height, value, open: &open }, threshold)
     }
 
-    /// The buildings' areas in one colour.
+    /// Fills the buildings' areas with one colour.
     pub(super) fn fill(&self, block: &mut Block, scale: Scale, colour: Rgb) {
         group(block, "roofs", |block| fill(block, &scale.areas(&self.footprints), colour, 1.0));
     }

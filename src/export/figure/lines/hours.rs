@@ -20,18 +20,20 @@ const LABEL: LetterStyle = LetterStyle { size: 27.0, weight: FontWeight::Bold, c
 const WIDTH: f64 = 2.6;
 /// How much lighter the bands are than the profile's, since lines and labels lie over them.
 const LIGHTER: f64 = 0.5;
-/// The length of line per label, the shortest line with a label, and the least distance between equal labels: pixels.
+/// The length of line per label, the shortest line that gets a label, and the least distance between equal labels:
+/// pixels.
 const PART: f64 = 1300.0;
 const SHORT: f64 = 130.0;
 const APART: f64 = 240.0;
 
-/// `hours`: the profile's bands, and a labelled line for each whole hour of shadow. Where a band is wider than an hour
-/// the lines are those of the bands, and also where the window has no whole hour.
+/// `hours`: the profile's bands, and a labelled line for each whole hour of shadow. If a band is wider than an hour, or
+/// if the window has no whole hour, the lines are the limits of the bands.
 ///
-/// A line parts cells with more shadow than it says from those with no more; along walls there is none.
+/// A line separates cells with more shadow than its label says from those with at most as much. There are no lines
+/// along walls.
 ///
 /// # Errors
-/// [`ExportError::Size`] where surface and profile do not fill the grid.
+/// [`ExportError::Size`] if surface or profile do not fill the grid.
 pub fn iso_hours<S: SurfaceRows>(scene: &FigureContext<S>, profile: &Profile) -> Result<LineDrawing, ExportError> {
     let grid = &profile.grid;
     check_size("profile", profile.shaded.len(), grid.width, grid.height)?;
@@ -90,7 +92,7 @@ pub fn iso_hours<S: SurfaceRows>(scene: &FigureContext<S>, profile: &Profile) ->
     Ok(LineDrawing::new(&panel, (grid.width, grid.height), grid.cell, draw))
 }
 
-/// Labels each line that is long enough with its hours, repeatedly; if no line is, the label stands beside the longest.
+/// Labels each line that is long enough with its hours, repeatedly. If no line is, one label stands beside the longest.
 fn label(labels: &mut Labels, said: &str, lines: &LineGroup) {
     /// The gap between a line and a label beside it, pixels.
     const BESIDE: f64 = 10.0;

@@ -1,4 +1,4 @@
-//! Labels on lines, placed so that they can be read and, if possible, cover nothing else.
+//! Places labels on lines so that they can be read and, if possible, cover nothing else.
 
 use super::{distance, length};
 use crate::export::figure::scale::Rgb;
@@ -8,12 +8,12 @@ use crate::export::figure::text;
 /// The halo behind labels.
 const HALO: Rgb = [255, 255, 255];
 
-/// A place for a label: its middle, and the angle of the text, radians clockwise from rightwards.
+/// A position for a label: its middle, and the angle of the text in radians, clockwise from horizontal.
 #[derive(Clone, Copy)]
 pub(super) struct Spot {
     pub(super) at: [f64; 2],
     pub(super) angle: f64,
-    /// Its own cost; one pixel of another line under the label costs 1.
+    /// The cost of the position itself; a pixel of another line under the label adds 1.
     pub(super) cost: f64,
 }
 
@@ -36,7 +36,7 @@ const SQUARE: f64 = 6.0;
 const AROUND: f64 = 6.0;
 
 impl Labels {
-    /// No labels yet, on a picture of that many pixels.
+    /// An empty set of labels for a picture of this size in pixels.
     pub(super) fn new(pixels: (u32, u32), style: LetterStyle, apart: f64) -> Labels {
         let size = [f64::from(pixels.0), f64::from(pixels.1)];
         let [columns, rows] = size.map(|length| (length / SQUARE).ceil() as usize + 1);
@@ -69,13 +69,13 @@ impl Labels {
         [text::width(said, self.style.weight, self.style.size) / 2.0, self.style.size * 0.40]
     }
 
-    /// Whether a label there would lie on no line.
+    /// Whether a label at this position would cover no line.
     pub(super) fn is_clear(&self, said: &str, spot: &Spot) -> bool {
         let squares = self.under(spot, self.half(said).map(|half| half + AROUND));
         squares.is_some_and(|squares| squares.iter().all(|&square| self.lines[square] == 0.0))
     }
 
-    /// Puts a label where it costs least. Returns whether there was room at all.
+    /// Puts a label at the position with the lowest cost. Returns whether there was room at all.
     pub(super) fn place(&mut self, said: &str, colour: Rgb, spots: &mut [Spot]) -> bool {
         spots.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         let same: Vec<_> = self.placed.iter().filter(|placed| placed.1 == said).map(|placed| placed.0.at).collect();
@@ -144,14 +144,14 @@ impl Labels {
     }
 }
 
-/// Spots along a line between the lengths `from` and `to`, for a label of that width: where the line is straight
+/// Positions along a line between the lengths `from` and `to`, for a label of this width: where the line is straight
 /// enough, with the text upright.
 pub(super) fn along(line: &[[f64; 2]], [from, to]: [f64; 2], width: f64) -> Vec<Spot> {
-    /// The distance between spots, pixels.
+    /// The distance between positions, pixels.
     const PITCH: f64 = 9.0;
-    /// The angle from which text is turned the other way: 80°.
+    /// The angle from which text is turned to read the other way: 80°.
     const STEEP: f64 = 1.4;
-    /// How much longer the line may be than the straight distance across the label.
+    /// How much longer than the straight distance the line under a label may be.
     const BENT: f64 = 1.09;
     let [from, to] = [from.max(width / 2.0), to.min(length(line) - width / 2.0)];
     let count = ((to - from) / PITCH).floor();
@@ -167,20 +167,20 @@ pub(super) fn along(line: &[[f64; 2]], [from, to]: [f64; 2], width: f64) -> Vec<
             return None;
         }
         let mut angle = (b[1] - a[1]).atan2(b[0] - a[0]);
-        // what stands upright is read from the right, all of it
+        // steep text always reads from the right
         if angle > STEEP {
             angle -= std::f64::consts::PI;
         } else if angle <= STEEP - std::f64::consts::PI {
             angle += std::f64::consts::PI;
         }
-        // a bend pushes the line out of the letters' middle
+        // at a bend the line would leave the middle of the letters
         let at = [0, 1].map(|axis| (at[axis] * 2.0 + a[axis] + b[axis]) / 4.0);
         Some(Spot { at, angle, cost: (width - across) * 4.0 })
     });
     spots.collect()
 }
 
-/// Points at lengths of a line.
+/// Points at given lengths of a line.
 struct LinePoints<'a> {
     line: &'a [[f64; 2]],
     lengths: Vec<f64>,

@@ -26,7 +26,7 @@ use std::fmt::Write;
 pub struct LineDrawing(Block);
 
 impl LineDrawing {
-    /// Lays out the sheet. `draw` makes the picture once its size is known.
+    /// Lays out the sheet; `draw` makes the picture once its size is known.
     fn new(panel: &Panel, cells: (u32, u32), cell_m: f64, draw: impl FnOnce(Fit) -> Block) -> LineDrawing {
         LineDrawing(page::whole(panel, cells, cell_m, draw))
     }
@@ -39,13 +39,13 @@ impl LineDrawing {
     /// The drawing as PNG, of the size that all drawings have.
     ///
     /// # Errors
-    /// [`ExportError::Encode`] where the sheet cannot be drawn or encoded.
+    /// [`ExportError::Encode`] if the sheet cannot be drawn or encoded.
     pub fn png(&self) -> Result<Vec<u8>, ExportError> {
         page::png(&Sheet::of(&self.0)?)
     }
 }
 
-/// From cells to page pixels.
+/// Converts cells to page pixels.
 #[derive(Clone, Copy)]
 struct Scale([f64; 2]);
 
@@ -59,9 +59,9 @@ impl Scale {
         [column * self.0[0], row * self.0[1]]
     }
 
-    /// The drawn parts of contours.
+    /// The drawn parts of contours, as lines.
     fn lines(self, contours: &[Contour]) -> LineGroup {
-        /// The area below which a contour is small, square pixels.
+        /// The area up to which a contour counts as small, square pixels.
         const SMALL: f64 = 3000.0;
         let mut lines = LineGroup::default();
         for contour in contours {
@@ -93,7 +93,7 @@ type Line = Vec<[f64; 2]>;
 struct LineGroup {
     /// The longest first.
     large: Vec<Line>,
-    /// Lines around what is so small that a full line would hide it.
+    /// Lines around areas that are so small that a full line would hide them.
     small: Vec<Line>,
 }
 
@@ -117,7 +117,7 @@ fn distance([ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> f64 {
     (bx - ax).hypot(by - ay)
 }
 
-/// Appends a line to a path's data; a line that ends where it begins is closed.
+/// Appends a line to a path's data. A line that ends where it begins is closed.
 fn line(data: &mut String, points: impl Iterator<Item = [f64; 2]>) {
     for (at, [x, y]) in points.enumerate() {
         // Writing to a String cannot fail.
@@ -161,7 +161,7 @@ fn group(block: &mut Block, name: &str, what: impl FnOnce(&mut Block)) {
     }
 }
 
-/// Flat colour within contours.
+/// Fills contours with a flat colour.
 fn fill(block: &mut Block, data: &str, colour: Rgb, opacity: f64) {
     if data.is_empty() {
         return;
@@ -176,7 +176,7 @@ fn fill(block: &mut Block, data: &str, colour: Rgb, opacity: f64) {
     }
 }
 
-/// Lines of one width and colour, with a `title` that describes them.
+/// Draws lines of one width and colour, with a `title` that describes them.
 fn stroke(block: &mut Block, data: &str, width: f64, colour: Rgb, title: &str) {
     if data.is_empty() {
         return;

@@ -1,4 +1,4 @@
-//! The hourly diagram: each instant's shadow as a line with its time.
+//! The hourly diagram: the shadow at each instant as a line with its time.
 
 use super::base::Base;
 use super::labels::{Labels, Spot};
@@ -17,10 +17,10 @@ use crate::view::{Bits, Grid, SurfaceRows};
 /// The greatest number of outlines; more are hard to tell apart.
 pub const MOST_OUTLINES: usize = 24;
 
-/// One instant's shadow.
+/// The shadow at one instant.
 #[derive(Clone, Debug)]
 pub struct Outline {
-    /// The index of its instant in the track, from 0.
+    /// The index of the instant in the track, from 0.
     pub index: usize,
     /// Which cells are in shadow.
     pub shadow: Bits,
@@ -28,30 +28,30 @@ pub struct Outline {
 
 /// The colours from morning to evening.
 const DAY: [Rgb; 5] = [[24, 74, 150], [14, 120, 128], [96, 96, 24], [190, 84, 16], [150, 24, 60]];
-/// Ground and roofs, lighter than under one shadow.
+/// Ground and roofs; lighter than under a single shadow.
 const GROUND: Rgb = [253, 251, 246];
 const ROOF: Rgb = [231, 224, 210];
 const SHADE: Rgb = [92, 106, 132];
-/// The darkness of the shade where all instants overlap.
+/// The darkness of the shade where the shadows of all instants overlap.
 const DARKEST: f64 = 0.55;
 /// The width of a line, page pixels.
 const WIDTH: f64 = 3.0;
 const LABEL: LetterStyle = LetterStyle { size: 31.0, weight: FontWeight::Bold, colour: [0; 3] };
-/// The greatest number of labels of one instant, the share of the longest shadow from which a shadow has further ones,
-/// and their least distance in pixels.
+/// The most labels of one instant, the share of the longest shadow's length from which a shadow gets more than one
+/// label, and the least distance between them in pixels.
 const MOST_LABELS: usize = 3;
 const NEARLY: f64 = 0.7;
 const APART: f64 = 600.0;
-/// The distance between places that are tried, and between the line and a label beside it, pixels.
+/// The distance between the positions that are tried, and between a line and a label beside it, pixels.
 const PITCH: f64 = 16.0;
 const BESIDE: f64 = 12.0;
 
-/// `outlines`: the border of each instant's shadow, in the track's order, with its time.
+/// `outlines`: the border of the shadow at each instant, in the track's order, with its time.
 ///
-/// A line parts cells in shadow from cells in the sun; along walls there is none.
+/// A line separates cells in shadow from cells in the sun. There are no lines along walls.
 ///
 /// # Errors
-/// [`ExportError::Size`] where surface or a shadow do not fill the grid; [`ExportError::Encode`] where the track has no
+/// [`ExportError::Size`] if the surface or a shadow does not fill the grid; [`ExportError::Encode`] if the track has no
 /// such instant.
 pub fn outlines<S: SurfaceRows>(
     scene: &FigureContext<S>,
@@ -86,7 +86,7 @@ fn panel<S>(scene: &FigureContext<S>, grid: &Grid, drawn: &[DrawnOutline]) -> Pa
     panel
 }
 
-/// The drawing itself: ground and roofs, the overlapping shadows, and above them the lines with their times.
+/// The drawing itself: ground and roofs, the overlapping shadows, then the lines with their times on top.
 fn sheet(base: &Base, drawn: &mut [DrawnOutline], is_judged: bool, fit: Fit) -> Block {
     let scale = Scale::of(fit);
     let once = opacity(drawn.len());
@@ -123,7 +123,7 @@ struct DrawnOutline<'a> {
     time: String,
     colour: Rgb,
     contours: Vec<Contour>,
-    /// The line, once the sheet is laid out.
+    /// The outline as lines, once the sheet is laid out.
     lines: LineGroup,
     shadow: &'a Bits,
 }
@@ -146,11 +146,10 @@ impl<'a> DrawnOutline<'a> {
     }
 }
 
-/// Labels each outline with its time where the shadow reaches farthest, and once or twice more beside long shadows in
-/// open sun.
+/// Labels each outline with its time where the shadow is longest, and a few more times along long shadows in open sun.
 fn label(labels: &mut Labels, drawn: &[DrawnOutline], at: usize, scale: Scale) {
     let DrawnOutline { instant, time, colour, lines, shadow, .. } = &drawn[at];
-    // rows run southwards
+    // rows count southwards
     let away = [-instant.to_sun.x, instant.to_sun.y];
     let length = away[0].hypot(away[1]).max(1e-9);
     let away = away.map(|part| part / length);
@@ -195,7 +194,7 @@ fn cell(of: &Bits, scale: Scale, at: [f64; 2]) -> Option<usize> {
     is_within.then(|| at[1] as usize * of.width as usize + at[0] as usize)
 }
 
-/// The opacity of one of that many overlapping shadows.
+/// The opacity of a single shadow if `count` overlap.
 fn opacity(count: usize) -> f64 {
     1.0 - (1.0 - DARKEST).powf(1.0 / count.max(1) as f64)
 }

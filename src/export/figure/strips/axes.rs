@@ -4,14 +4,14 @@ use crate::sun::Zone;
 use crate::sunlight::SunDay;
 use chrono::{DateTime, Datelike, NaiveDate, NaiveTime};
 
-/// The hours across, counted from the midnight with which the local date begins; beyond 24 on the next day.
+/// The hours of the horizontal axis, counted from midnight at the start of the local date; beyond 24 on the next day.
 pub(super) struct HourAxis {
     pub(super) first: i64,
     pub(super) last: i64,
 }
 
 impl HourAxis {
-    /// The whole hours around everything that the sun does on the days.
+    /// The whole hours that enclose sunrise, sunset and all time with sun on the given days.
     pub(super) fn of(days: &[SunDay]) -> HourAxis {
         let times = |day: &SunDay| {
             let of_day = [day.window.day.sunrise, day.window.day.sunset].into_iter().flatten();
@@ -26,28 +26,28 @@ impl HourAxis {
         HourAxis { first, last: (high + 3599).div_euclid(3600).max(first + 1) }
     }
 
-    /// The position of a number of seconds after midnight: 0 at the left, 1 at the right.
+    /// The position of a time in seconds after midnight: 0 at the left, 1 at the right.
     pub(super) fn at(&self, secs: i64) -> f64 {
         (secs - self.first * 3600) as f64 / ((self.last - self.first) * 3600) as f64
     }
 
-    /// The position of a time on a day by the local clock, also if the clock is put forward or back in between.
+    /// The position of a time on a day by the local clock, even if the clock is put forward or back in between.
     pub(super) fn of_time(&self, day: &SunDay, time: DateTime<Zone>) -> f64 {
         self.at(clock_secs(day, time))
     }
 }
 
-/// The reading of the local clock, in seconds after the midnight with which the date begins.
+/// The reading of the local clock, in seconds after the midnight that begins the date.
 fn clock_secs(day: &SunDay, time: DateTime<Zone>) -> i64 {
     (time.naive_local() - day.window.day.date.and_time(NaiveTime::MIN)).num_seconds()
 }
 
-/// A day with a line above it and a label.
+/// A day that has a line above it and a label.
 pub(super) struct Tick {
     /// The index of the day.
     pub(super) row: usize,
     pub(super) label: String,
-    /// Whether the label is in the middle of the day's own row, or below its line.
+    /// Whether the label stands in the middle of the day's own row, or below its line.
     pub(super) within: bool,
 }
 
@@ -72,7 +72,7 @@ pub(super) fn ticks(days: &[NaiveDate], row: f64) -> Vec<Tick> {
         row if 90.0 * row >= PITCH => each(&of_month(3), &by_month),
         _ => each(&|_, date| date.ordinal() == 1, &|_| "%Y"),
     };
-    // the first day, where no other label is in its way
+    // the first day, unless another label is in the way
     if let Some(first) = days.first()
         && ticks.first().is_none_or(|tick| tick.row as f64 * row >= PITCH)
     {

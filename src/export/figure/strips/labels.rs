@@ -49,14 +49,14 @@ pub(super) fn panel(sunlight: &Sunlight, place: &Place, ground: &Ground) -> Pane
     }
 }
 
-/// Whether the requested part of a day is less than the time that the sun is up.
+/// Whether the requested part of a day is shorter than the time during which the sun is up.
 fn is_cut(day: &SunDay) -> bool {
     let window = &day.window;
     let up = [window.day.sunrise, window.day.sunset];
     up.into_iter().flatten().any(|event| !(window.from..=window.to).contains(&event)) || window.from == window.to
 }
 
-/// A probe's total, its longest interval, and for several days those with the least and the most.
+/// A probe's total, its longest interval, and for several days those with the least and the most sun.
 pub(in crate::export::figure) fn sums(
     facts: &mut Vec<(&'static str, String)>,
     sunlight: &Sunlight,
@@ -108,7 +108,7 @@ fn sun_rows(sunlight: &Sunlight, place: &Place) -> Vec<[String; 4]> {
     rows.into_iter().flatten().collect()
 }
 
-/// A single probe's intervals on a single day, as a table of at most that height.
+/// The intervals of a single probe on a single day, as a table of at most this height.
 pub(super) fn intervals(sunlight: &Sunlight, intervals: &[Interval], room: f64) -> Block {
     const LEFT: [f64; 5] = [0.0, 260.0, 520.0, 780.0, 1500.0];
     const PITCH: f64 = 54.0;

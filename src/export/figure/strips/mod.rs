@@ -1,4 +1,4 @@
-//! The strip chart: when probes lie in the sun. The local clock's time of day runs across, the days run down.
+//! The strip chart: when probes are in the sun. The local time of day runs across, the days run down.
 
 mod axes;
 mod colours;
@@ -26,18 +26,18 @@ const GRID: f64 = 0.16;
 const LEFT: f64 = 150.0;
 const HOURS: f64 = 64.0;
 const RIGHT: f64 = 24.0;
-/// The height of a probe's line above its strip, and the gap between strips.
+/// The height of the line of text above a strip, and the gap between strips.
 const HEAD: f64 = 58.0;
 const GAP: f64 = 62.0;
-/// The least height of a strip, and the greatest height of a single day's.
+/// The least height of a strip, and the greatest height of a strip with a single day.
 const LOWEST: f64 = 60.0;
 const HIGHEST: f64 = 300.0;
 
-/// The drawing of `gnomon probe`: a strip for each probe. Where not all of them fit, the drawing says where the others
-/// are, in the face's `words`.
+/// The drawing of `gnomon probe`: a strip for each probe. If not all of them fit, the drawing says, in the interface's
+/// `words`, where the others are.
 ///
 /// # Errors
-/// [`ExportError::Encode`] where the page cannot be drawn or encoded.
+/// [`ExportError::Encode`] if the page cannot be drawn or encoded.
 pub fn strips(sunlight: &Sunlight, place: &Place, ground: &Ground, words: &dyn Words) -> Result<Vec<u8>, ExportError> {
     let hours = HourAxis::of(&sunlight.days);
     let left = if sunlight.days.len() > 1 { LEFT } else { RIGHT };
@@ -54,7 +54,7 @@ struct Strips {
 }
 
 impl Strips {
-    /// Strips as high as there is room for. If there are too many probes, only the first ones have strips.
+    /// Strips as high as the space allows. If there are too many probes, only the first ones get strips.
     fn within(sunlight: &Sunlight, (width, height): (u32, u32)) -> Strips {
         let room = f64::from(height) + GAP;
         let most = (room / (HEAD + GAP + LOWEST)) as usize;
@@ -118,7 +118,7 @@ fn draw(sunlight: &Sunlight, hours: &HourAxis, pixels: (u32, u32), words: &dyn W
     (picture, over)
 }
 
-/// A strip's pixels: one row per day, and the lines of hours and dates.
+/// The pixels of a strip: one row per day, with the lines of hours and dates.
 fn strip(sunlight: &Sunlight, probed: &ProbeIntervals, hours: &HourAxis, ticks: &[Tick], strips: &Strips) -> Vec<Rgb> {
     let (width, height) = (strips.width as usize, strips.height as usize);
     let rows = sunlight.days.iter().zip(&probed.days);
@@ -141,7 +141,7 @@ fn strip(sunlight: &Sunlight, probed: &ProbeIntervals, hours: &HourAxis, ticks: 
     pixels
 }
 
-/// A day's colours, averaged over the time of each column.
+/// The colours of a day, averaged over the time that each column covers.
 fn colours(day: &SunDay, intervals: &[Interval], hours: &HourAxis, columns: usize) -> Vec<Rgb> {
     let mut line = vec![OUTSIDE; columns];
     let mut paint = |from: DateTime<Zone>, to: DateTime<Zone>, colour: Rgb| {
@@ -158,7 +158,7 @@ fn colours(day: &SunDay, intervals: &[Interval], hours: &HourAxis, columns: usiz
     line
 }
 
-/// The line above a strip: the probe's name, and how much sun it has.
+/// The text above a strip: the probe's name, and how much sun it gets.
 fn head(lines: &mut Block, sunlight: &Sunlight, probed: &ProbeIntervals, width: f64) {
     let longest = probed.longest().map_or(0, Interval::secs);
     let sums = match (probed.days.as_slice(), longest) {
@@ -185,8 +185,8 @@ fn head(lines: &mut Block, sunlight: &Sunlight, probed: &ProbeIntervals, width: 
 
 /// The curves of sunrise and sunset over a strip's days.
 fn curves(lines: &mut Block, sunlight: &Sunlight, hours: &HourAxis, strips: &Strips) {
-    /// A curve continues where clocks are put forward or back, but not from one midnight to the other: the greatest
-    /// step, in hours.
+    /// The greatest step between neighbouring days, in hours, over which a curve continues: enough where clocks are put
+    /// forward or back, but not from one midnight to the other.
     const FARTHEST: f64 = 3.0;
     let row = f64::from(strips.height) / sunlight.days.len() as f64;
     let hour = f64::from(strips.width) / (hours.last - hours.first) as f64;
@@ -207,7 +207,7 @@ fn curves(lines: &mut Block, sunlight: &Sunlight, hours: &HourAxis, strips: &Str
     curve(|day| day.sunset);
 }
 
-/// The labels on a single day's strip: the times of each interval, and what blocks between them.
+/// The labels on the strip of a single day: the times of each interval, and what blocks the sun between them.
 fn label(
     lines: &mut Block,
     sunlight: &Sunlight,
