@@ -43,8 +43,8 @@ use glam::{DVec3, DVec4};
 use std::ops::Range;
 use std::sync::Arc;
 
-#[doc(hidden)]
 pub use changes::{DifferingCells, LightChange};
+#[doc(hidden)]
 pub use flush::FlushFaces;
 #[doc(hidden)]
 pub use plan_surface::{PlanSurface, plan_surface};
@@ -101,7 +101,7 @@ impl DrawnMask<'_> {
     }
 }
 
-/// The cells that a technique tests singly between two instants.
+/// Cells that a technique searches singly between two instants.
 #[doc(hidden)]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SingleCells {
@@ -126,13 +126,13 @@ pub trait Technique {
     /// Draws the mask for a unit vector to the sun, which is above the horizon.
     fn draw(&mut self, to_sun: DVec3) -> Result<DrawnMask<'_>, ShadowError>;
 
-    /// The cells that are tested singly between two instants because drawing them whole costs more; `None` if all are
+    /// The cells that are searched singly between two instants, since drawing them whole costs more; none where all are
     /// drawn.
     fn single_cells(&self) -> Option<SingleCells> {
         None
     }
 
-    /// As [`Technique::draw`], but cells that are tested singly are left out, as if lit.
+    /// As [`Technique::draw`], without those cells that are searched singly: they are not in shadow.
     ///
     /// # Errors
     /// As [`Technique::draw`].
@@ -140,8 +140,7 @@ pub trait Technique {
         self.draw(to_sun)
     }
 
-    /// Which of some cells that are tested singly are in shadow, as bits of the words in `asked`. Other bits of these
-    /// words are undefined.
+    /// When the cells of some rows change that differ between two instants, of those that are searched singly.
     ///
     /// # Errors
     /// As [`Technique::draw`].

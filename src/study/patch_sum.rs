@@ -96,13 +96,7 @@ impl<'a> PatchSum<'a> {
     }
 }
 
-/// The moments of a gap, including its ends.
-fn searched(gap: &Gap<'_>) -> Result<Vec<Moment>, SunError> {
-    let moment = |step| Ok(Moment { to_sun: gap.sun_at(step)?, secs_before_change: gap.secs_before_change(step) });
-    (0..=gap.steps()).map(moment).collect()
-}
-
-/// The samples of an instant: the sun's centre, or points of its disc.
+/// An instant's samples: the sun's centre, or points of its disc.
 fn samples_of(instant: &Instant, sun_samples: Option<u32>) -> Vec<Sample> {
     let sample = |to_sun: DVec3| Sample { light: to_sun.extend(0.0), weight: instant.weight_secs };
     match sun_samples {

@@ -1,7 +1,7 @@
 //! Sums the shaded time of a tile: the instants, and the times between them at which cells change.
 //!
-//! Cells that a technique can only draw together are drawn at every moment between two instants, so that nothing is
-//! missed. Cells that it can test singly are tested only if the two instants differ, by bisection.
+//! What a technique draws whole is drawn at every moment between two instants, so that nothing is missed. Cells that are
+//! searched singly are searched only where the two instants differ, by halving.
 
 use super::gaps::{Gap, Gaps};
 use super::{Event, OnEvent, StudyError, Wants, night, tell};
@@ -18,7 +18,7 @@ pub(super) struct TileSum<'a> {
     site: &'a Site,
     gaps: Gaps<'a>,
     sum: Sum,
-    /// The instant at which the current gap begins, and the shadow then of those cells that are tested singly.
+    /// The shadow at an instant that begins a gap, of those cells that are searched singly; and which instant it is.
     before: Option<(usize, Bits)>,
 }
 
@@ -130,22 +130,15 @@ const FEWEST_ROWS: usize = 1 << 8;
 struct CellSearch<'a> {
     technique: &'a mut dyn Technique,
     gap: Gap<'a>,
-    /// The shadow at the beginning of the gap.
-    before: &'a Bits,
     sum: &'a mut Sum,
 }
 
 impl CellSearch<'_> {
-    /// Adds the gap's seconds: all to cells in shadow at both ends, and the part found by the search to cells that
-    /// change.
-    fn add_gap(&mut self, after: &Bits) -> Result<(), StudyError> {
-        self.sum.add_gap([self.before, after], self.gap.secs())?;
-        self.halve([0, self.gap.steps()], &self.before.differing(after))
-    }
-
-    /// Finds in which half of a run of steps each of the cells changes that `differ` at its ends.
-    fn halve(&mut self, [from, to]: [u32; 2], differ: &[CellWord]) -> Result<(), StudyError> {
-        if differ.is_empty() {
+    /// Adds the gap's seconds to cells that are in shadow at both ends, and to others as many as they are found to be.
+    fn add_gap(&mut self, ends: [&Bits; 2], on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+        self.sum.add_gap(ends, self.gap.secs())?;
+        let [Bits { width, height, words: before }, Bits { words: after, .. }] = ends;
+        if before == after {
             return Ok(());
         }
         let suns = (0..=self.gap.steps()).map(|step| self.gap.sun_at(step)).collect::<Result<Vec<_>, _>>()?;
@@ -165,13 +158,4 @@ impl CellSearch<'_> {
         let before = self.gap.secs_before_change(change.moment);
         (change.number, if change.was_shaded { before } else { self.gap.secs() - before })
     }
-}
-
-/// Splits cells by their bits: those that are set, and the others. Empty words are dropped.
-fn parted(cells: &[CellWord], bits: &[u64]) -> [Vec<CellWord>; 2] {
-    let part = |of: &dyn Fn(u64, u64) -> u64| {
-        let words = cells.iter().zip(bits).map(|(word, bits)| CellWord { cells: of(word.cells, *bits), ..*word });
-        words.filter(|word| word.cells != 0).collect()
-    };
-    [part(&|cells, bits| cells & bits), part(&|cells, bits| cells & !bits)]
 }

@@ -26,33 +26,6 @@ pub struct Bits {
     pub words: Vec<u64>,
 }
 
-/// Some cells within one word of [`Bits::words`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct CellWord {
-    /// The index of the word.
-    pub word: u32,
-    /// Its bits: 1 for each of the cells.
-    pub cells: u64,
-}
-
-impl CellWord {
-    /// The row of its cells, and the column of the first of them, for rows of `in_row` words.
-    pub(crate) fn place(self, in_row: usize) -> (usize, usize) {
-        let word = self.word as usize;
-        (word / in_row, word % in_row * 64)
-    }
-
-    /// The indices of the bits, from the lowest.
-    pub(crate) fn bits(self) -> impl Iterator<Item = u32> {
-        let mut rest = self.cells;
-        std::iter::from_fn(move || {
-            let bit = rest.trailing_zeros();
-            rest &= rest.wrapping_sub(1);
-            (bit < 64).then_some(bit)
-        })
-    }
-}
-
 impl Bits {
     /// A raster without shadow.
     pub fn new(width: u32, height: u32) -> Bits {

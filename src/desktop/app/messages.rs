@@ -18,23 +18,33 @@ impl App {
 
     /// How far loading is.
     fn loading_message(&mut self, ui: &mut Ui) {
-        if let Some(loading) = &self.loading
-            && loading.reads
-        {
-            let (share, what) = loading.stage();
-            // updates the elapsed time
-            ui.ctx().request_repaint_after(std::time::Duration::from_millis(500));
-            let mut cancels = false;
-            ui.horizontal(|ui| {
-                ui.label(format!("Loading {}", loading.name));
-                ui.add(egui::ProgressBar::new(share).desired_width(280.0).text(what));
-                cancels = ui.button("Cancel").clicked();
-            });
-            if cancels {
-                loading.cancel();
-                // settings that could not be read are refused until they change
-                self.refused = (!loading.opens).then(|| self.settings.clone());
-                (self.loading, self.is_reading) = (None, false);
+        let Some(loading) = &self.loading else { return };
+        // updates the elapsed time
+        ui.ctx().request_repaint_after(std::time::Duration::from_millis(500));
+        if !loading.is_shown() {
+            return;
+        }
+        let (share, what) = loading.stage();
+        let mut cancels = false;
+        ui.horizontal(|ui| {
+            ui.label(format!("Loading {}", loading.name));
+            ui.add(egui::ProgressBar::new(share).desired_width(280.0).text(what));
+            cancels = ui.button("Cancel").clicked();
+        });
+        if cancels {
+            self.cancel_loading();
+        }
+    }
+
+    /// Gives loading up: the open site stays as it is, without what was set since it was read.
+    fn cancel_loading(&mut self) {
+        let Some(loading) = self.loading.take() else { return };
+        loading.cancel();
+        self.is_reading = false;
+        match &self.open {
+            Some(open) if !loading.opens && !loading.reads => {
+                self.settings.site = open.project.written.site.clone();
+                self.settings.hidden = open.project.hidden.clone();
             }
             // what is on the disk is refused until the settings change
             _ => self.refused = (!loading.opens).then(|| self.settings.clone()),

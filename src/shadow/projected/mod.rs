@@ -24,12 +24,10 @@ use std::ops::Range;
 pub struct Projected {
     shadow: FlatShadow,
     raised: RaisedCells,
-    /// The cells above the ground, if there are any.
-    above: Option<Arc<Bits>>,
     scene: Scene,
     raster_from_local: DAffine3,
     tile: Tile,
-    /// Made when single cells are first tested.
+    /// Made once single cells are searched.
     rays: Option<RayCaster>,
 }
 
@@ -94,9 +92,9 @@ impl Technique for Projected {
         Ok(DrawnMask::Bits(bits))
     }
 
-    /// Casts a ray for each cell, with all faces of the scene in a tree: sorting all faces into buckets does not pay
-    /// for few points.
-    fn shaded_of(&mut self, to_sun: DVec3, asked: &[CellWord]) -> Result<Vec<u64>, ShadowError> {
+    /// By rays: the buckets of a few points would not pay for the sorting of all faces. What the points see at the two
+    /// instants is the buckets'; where a ray decides otherwise a change is found a moment earlier or later.
+    fn changes(&mut self, cells: &DifferingCells<'_>, rows: Range<usize>) -> Result<Vec<LightChange>, ShadowError> {
         let Projected { raised, scene, raster_from_local, tile, rays, .. } = self;
         let rays = rays.get_or_insert_with(|| RayCaster::new(&scene.casters, reach(scene, &View::Plan(tile.plan))));
         let local_from_raster = raster_from_local.inverse();

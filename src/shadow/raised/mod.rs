@@ -38,8 +38,9 @@ pub(super) struct RaisedCells {
     normals: Vec<DVec3>,
     /// The first point of each row; one entry more.
     row_first: Vec<usize>,
-    /// The words in a row of the tile's bits.
-    in_row: usize,
+    /// The cells, and how many points there are before those of each word.
+    cells: Arc<Bits>,
+    word_first: Vec<u32>,
     /// A box around the points.
     bounds: RasterBounds,
     faces: Mesh,
@@ -157,37 +158,17 @@ impl RaisedCells {
         self.mark(bits);
     }
 
-    /// The cells as bits of a tile of this size; `None` if there are none.
-    pub(super) fn cells(&self, [width, height]: [u32; 2]) -> Option<Arc<Bits>> {
-        let mut cells = Bits::new(width, height);
-        for (row, words) in cells.words.chunks_mut(self.in_row).enumerate().take(self.row_first.len() - 1) {
-            for column in &self.columns[self.row_first[row]..self.row_first[row + 1]] {
-                words[*column as usize / 64] |= 1 << (column % 64);
-            }
-        }
-        (!self.points.is_empty()).then(|| Arc::new(cells))
+    /// The cells; none where there are none.
+    pub(super) fn cells(&self) -> Option<&Arc<Bits>> {
+        (!self.points.is_empty()).then_some(&self.cells)
     }
 
-    /// Which of some raised cells are in shadow, each tested on its own: whether anything is between its point (column,
-    /// row, height) and the sun.
-    pub(super) fn shaded_of(
-        &self,
-        to_sun: DVec3,
-        asked: &[CellWord],
-        is_blocked: impl Fn(DVec3) -> bool + Sync,
-    ) -> Vec<u64> {
-        let away: Vec<bool> = self.normals.iter().map(|normal| normal.dot(to_sun) <= 0.0).collect();
-        let shaded = |asked: &CellWord| {
-            let (row, first) = asked.place(self.in_row);
-            let of_row = self.row_first[row]..self.row_first[row + 1];
-            let begin =
-                of_row.start + self.columns[of_row.clone()].partition_point(|column| (*column as usize) < first);
-            let of_word = (begin..of_row.end).map(|at| (at, self.columns[at] as usize - first));
-            let asked = of_word.take_while(|(_, bit)| *bit < 64).filter(|(_, bit)| asked.cells >> bit & 1 == 1);
-            let is_shaded = |at: usize| away[self.normal_of[at] as usize] || is_blocked(self.points[at]);
-            asked.fold(0, |shaded, (at, bit)| shaded | u64::from(is_shaded(at)) << bit)
-        };
-        asked.par_iter().map(shaded).collect()
+    /// Where one of the cells is judged: column, row and height; and the normal there.
+    pub(super) fn judged(&self, row: usize, column: usize) -> (DVec3, DVec3) {
+        let word = row * self.cells.in_row() + column / 64;
+        let before = self.cells.words[word] & !(u64::MAX << (column % 64));
+        let at = (self.word_first[word] + before.count_ones()) as usize;
+        (self.points[at], self.normals[self.normal_of[at] as usize])
     }
 
     /// The number of tests of points against faces under the last sun.

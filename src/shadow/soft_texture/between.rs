@@ -1,5 +1,4 @@
-//! Finds when texels change between two instants: bisects with one ray per texel and moment, starting at the
-//! neighbour's change.
+//! When texels change between two instants: patch by patch, searched as cells of a plan are ([`crate::shadow::changes`]).
 
 use super::{PatchJudge, PatchJudgements, SoftTexture, count};
 use crate::mesh::patches::{Patch, Texel};
@@ -10,21 +9,20 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// An instant, or a moment between two instants.
-#[derive(Debug)]
-pub struct Moment {
-    /// The direction to the sun's centre.
-    pub to_sun: DVec3,
-    /// The seconds since the first instant for which a texel is as it was then, if it changes after this moment and
-    /// before the next; for the last moment, all seconds.
-    pub secs_before_change: u32,
-}
+/// One task searches patches of so many texels, or a larger one.
+const RUN: usize = 1 << 12;
+/// Texels are searched in squares of so many a side, as many as a beam has rays.
+const SIDE: u16 = 8;
 
-/// The rays of a patch to the sun at one moment.
-struct PatchRays {
-    /// The offset from a texel's centre to where it is judged.
-    lift: DVec3,
-    shear: Shear,
+/// The time between two instants.
+pub struct TextureGap<'a, S> {
+    /// Which texels see the sun at its ends.
+    pub ends: [&'a [u8]; 2],
+    /// To the sun at the moments, from the one instant to the other.
+    pub suns: &'a [DVec3],
+    /// For how many seconds since the first instant a texel is as it was then that changes after a moment, and before the
+    /// next one; of the last one all seconds.
+    pub secs_before_change: S,
 }
 
 impl SoftTexture {
@@ -47,11 +45,9 @@ impl SoftTexture {
             .for_each(|(sum, seen)| *sum += u32::from(*seen) * secs);
     }
 
-    /// Adds the seconds between two instants: all of them to texels that see the sun at both, and the part that the
-    /// search finds to those that see it at one. The moments include the two instants.
-    pub fn add_between(&mut self, [before, after]: [&[u8]; 2], moments: &[Moment]) {
-        let [_, .., last] = moments else { return };
-        let all_secs = last.secs_before_change;
+    /// Adds the seconds between two instants to the texels of some patches: all of them to those that see the sun at both, and
+    /// to those that see it at one of them the part that they are found to.
+    pub fn add_between(&mut self, patches: Range<usize>, gap: &TextureGap<'_, impl Fn(u32) -> u32 + Sync>) {
         let mut sums = std::mem::take(&mut self.sums);
         let judge = self.judge();
         let list = &judge.sought.patches.list[patches];
@@ -77,38 +73,15 @@ impl SoftTexture {
         self.sums = sums;
     }
 
-/// The search on one patch.
-struct TexelSearch<'a> {
-    judge: &'a PatchJudge<'a>,
-    patch: &'a Patch,
-    moments: &'a [Moment],
-    /// For each moment, its rays once a texel needs them; `None` if the patch faces away from the sun.
-    rays: Vec<Option<Option<PatchRays>>>,
-    /// The moment after which the last texel changed, and its distance in moments from the one before it.
-    last: usize,
-    shift: isize,
-    cast: u64,
-}
-
-impl TexelSearch<'_> {
-    /// The seconds for which a texel that sees the sun at one end only is as it was at the first.
-    fn secs_before_change(&mut self, texel: usize, is_lit_before: bool) -> u32 {
-        let (mut from, mut to) = (0, self.moments.len() - 1);
-        // starts where a shadow that moves evenly over the texels would be, then goes ever farther from there, until
-        // the change is between two moments
-        let guess = self.last.saturating_add_signed(self.shift);
-        let (mut next, mut stride) = (guess.clamp(1, to.saturating_sub(1).max(1)), 1);
-        while to - from > 1 {
-            if self.is_lit(texel, next) == is_lit_before {
-                from = next;
-                next = if to + 1 == self.moments.len() { from + stride } else { to };
-            } else {
-                to = next;
-                next = if from == 0 { to.saturating_sub(stride) } else { from };
-            }
-            stride *= 2;
-            if next <= from || next >= to {
-                next = from + (to - from) / 2;
+    /// The patches in parts that take about as long as an instant of so many texels, or of one larger patch.
+    pub fn parts(&self, texels: usize) -> Vec<Range<usize>> {
+        let mut parts = Vec::new();
+        let (mut first, mut so_far) = (0, 0);
+        for (at, patch) in self.patches.list.iter().enumerate() {
+            so_far += patch.texels.len();
+            if so_far >= texels || at + 1 == self.patches.list.len() {
+                parts.push(first..at + 1);
+                (first, so_far) = (at + 1, 0);
             }
         }
         parts

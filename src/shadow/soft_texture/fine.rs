@@ -19,7 +19,7 @@ impl SoftTexture {
         let Some(raster) = raster(patch, cell, to_sun.extend(0.0)) else { return true };
         let judge = self.judge();
         let shear = Shear::along(to_sun);
-        let lift = judge.tie(patch, &raster) + raster.plane.truncate() * JUDGED_ABOVE_M;
+        let lift = judge.tie(patch) + raster.plane.truncate() * JUDGED_ABOVE_M;
         let near = |one: u16, other: u16| one.abs_diff(other) <= 1;
         let around = |other: &&Texel| near(other.column, texel.column) && near(other.row, texel.row);
         let step = |number: u32| ((f64::from(number) + 0.5) / f64::from(FINE) - 0.5) * cell;
