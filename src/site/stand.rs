@@ -222,17 +222,7 @@ fn anchored(
     let is_elsewhere = zero.on_map.is_none() && away > FAR_M;
     let Some(there) = there.filter(|_| !is_elsewhere).or(placement.position).or(is_elsewhere.then_some(DVec3::ZERO))
     else {
-        let what = format!("by its {said_by} it stands at {}, {} from the place", degrees(at), length(away));
-        return Err(StandFault::Key(
-            "position",
-            message![
-                what;
-                "write ",
-                set_to("[[model]]", "position", "[0.0, 0.0, 0.0]".to_owned(), "`position = [0.0, 0.0, 0.0]` under [[model]]".to_owned()),
-                " to have its zero at the place, or correct ",
-                place_setting("latitude and longitude in [place]")
-            ],
-        ));
+        return Err(too_far_anchor(said_by, at, away));
     };
     // a building that is moved keeps its true north, and not that of where its anchor lies
     let moved_to = match placement.position {
@@ -266,6 +256,23 @@ fn anchored(
     });
     let is_where_said = placement.position.is_none() && !is_elsewhere;
     Ok(AnchoredPosition { position, north_rad: north, is_where_said, note })
+}
+
+/// That an anchor lies where nothing of the site can stand.
+fn too_far_anchor(said_by: &str, at: GeodeticPoint, away: f64) -> StandFault {
+    let what = format!("by its {said_by} it stands at {}, {} from the place", degrees(at), length(away));
+    let at_place = "[0.0, 0.0, 0.0]";
+    let written = format!("`position = {at_place}` under [[model]]");
+    StandFault::Key(
+        "position",
+        message![
+            what;
+            "write ",
+            set_to("[[model]]", "position", at_place.to_owned(), written),
+            " to have its zero at the place, or correct ",
+            place_setting("latitude and longitude in [place]")
+        ],
+    )
 }
 
 /// Where a model stands, beside what its anchor says; empty where both are one.
