@@ -267,6 +267,23 @@ fn anchored(
     Ok(AnchoredPosition { position, north_rad: north, is_where_said, note })
 }
 
+/// That an anchor lies where nothing of the site can stand.
+fn too_far_anchor(said_by: &str, at: GeodeticPoint, away: f64) -> StandFault {
+    let what = format!("by its {said_by} it stands at {}, {} from the place", degrees(at), length(away));
+    let at_place = "[0.0, 0.0, 0.0]";
+    let written = format!("`position = {at_place}` under [[model]]");
+    StandFault::Key(
+        "position",
+        message![
+            what;
+            "write ",
+            set_to("[[model]]", "position", at_place.to_owned(), written),
+            " to have its zero at the place, or correct ",
+            place_setting("latitude and longitude in [place]")
+        ],
+    )
+}
+
 /// A clause on where a model stands compared with its anchor; empty if both are the same.
 fn stands_where(
     zero: &AnchoredZero,
