@@ -135,6 +135,11 @@ fn meeting(rings: &[CheckedRing]) -> Option<[RingSide; 2]> {
     for (at, one) in sides.iter().enumerate() {
         let east = one.from.x.max(one.to.x) + TOUCH_M;
         for other in sides[at + 1..].iter().take_while(|other| west(other) <= east) {
+            let lies_beside = one.from.y.max(one.to.y) + TOUCH_M < other.from.y.min(other.to.y)
+                || other.from.y.max(other.to.y) + TOUCH_M < one.from.y.min(one.to.y);
+            if lies_beside {
+                continue;
+            }
             let count = rings[one.ring].corners.len();
             let follows = |first: &RingSide, then: &RingSide| (first.index + 1) % count == then.index;
             let meets = match one.ring == other.ring {
