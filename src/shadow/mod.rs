@@ -32,6 +32,7 @@ pub mod soft_picture;
 pub mod soft_texture;
 pub mod stencil;
 mod surface;
+mod view_rays;
 #[doc(hidden)]
 pub mod walls;
 
@@ -43,6 +44,7 @@ use glam::{DVec3, DVec4};
 use std::ops::Range;
 use std::sync::Arc;
 
+#[doc(hidden)]
 pub use changes::{DifferingCells, LightChange};
 #[doc(hidden)]
 pub use flush::FlushFaces;

@@ -8,12 +8,13 @@
 //! rounding could make it a hit. Squares of eight by eight cells are traced at once, as a beam of parallel rays.
 
 use super::flush::FlushFaces;
+use super::view_rays::Rays;
 use super::{
     DifferingCells, DrawnMask, JUDGED_ABOVE_M, LightChange, Scene, ShadowError, SingleCells, Technique, seen_normal,
 };
 use crate::mesh::Mesh;
 use crate::sun::disc;
-use crate::view::{Camera, Elevation, Grid, Lens, Mask, Surface, Tile, View};
+use crate::view::{Mask, Surface, Tile, View};
 use arrayvec::ArrayVec;
 use glam::{DVec2, DVec3, DVec4};
 use rayon::prelude::*;
@@ -22,6 +23,7 @@ use std::sync::Arc;
 
 #[doc(hidden)]
 pub use super::rays::{RayCaster, Shear};
+pub(super) use super::view_rays::{TIE, reach};
 
 /// The side of the squares of cells that are traced together: as many rays as a beam has.
 const SIDE: usize = 8;
@@ -108,7 +110,7 @@ impl RayCast {
 
     /// Looks at a part of a view's cells: the first column and row, and the size.
     fn look_at_part(&mut self, view: View, (first, [width, height]): ([u32; 2], [u32; 2])) {
-        self.rays = Rays { first, ..Rays::new(&self.scene, view) };
+        self.rays = Rays::of_part(&self.scene, view, first);
         let mut ends = vec![RayEnd::SKY; width as usize * height as usize];
         let parallel = self.rays.shared_direction().map(Shear::along);
         ends.par_chunks_mut(width as usize * SIDE).enumerate().for_each(|(band, ends)| {
@@ -333,86 +335,6 @@ fn squares(width: usize, cells: usize) -> impl Iterator<Item = impl Iterator<Ite
     })
 }
 
-/// The offset of a cell's ray if an edge runs exactly through its centre, in cells: it sees what is east of the edge,
-/// or south of an edge that runs from west to east. This is the rasterisers' top-left rule, so that models whose walls
-/// are on whole cells give the same plan on every machine. A ten-thousandth is just beyond the rounding of corners.
-pub(super) const TIE: DVec2 = DVec2::new(1e-4, -1e-5);
-
-/// The rays of a view's cells.
-struct Rays {
-    view: View,
-    /// The first column and row of the part that is looked at.
-    first: [u32; 2],
-    /// The scene's origin.
-    origin: DVec3,
-    start: RayStart,
-}
-
-/// The start of rays.
-enum RayStart {
-    /// A height above everything, in the world frame, from which the plan looks down.
-    Above(Grid, f64),
-    /// A camera's eye; its rays begin at the near plane.
-    Eye(DVec3, Lens),
-    /// The distance in front of a side's own plane from which everything lies behind it.
-    Before(Elevation, f64),
-}
-
-impl Rays {
-    fn new(scene: &Scene, view: View) -> Rays {
-        let start = match view {
-            View::Plan(grid) => RayStart::Above(grid, scene.receivers.top().max(scene.ground) + 1.0),
-            View::Camera(camera) => RayStart::Eye(camera.eye, camera.lens()),
-            View::Elevation(side) => {
-                let (low, high) = scene.receivers.bounds().unwrap_or_default();
-                RayStart::Before(side, away(&side, (low, high)))
-            }
-        };
-        Rays { view, first: [0, 0], origin: scene.casters.origin, start }
-    }
-
-    /// Whether what is seen of the ground there is cut earth.
-    #[inline(always)]
-    fn is_cut(&self, distance: f64) -> bool {
-        distance == 0.0 && matches!(self.view, View::Elevation(side) if side.is_level())
-    }
-
-    /// The direction of all rays, if they are parallel.
-    fn shared_direction(&self) -> Option<DVec3> {
-        match &self.start {
-            RayStart::Above(..) => Some(DVec3::NEG_Z),
-            RayStart::Eye(..) => None,
-            RayStart::Before(side, _) => Some(-side.to_viewer),
-        }
-    }
-
-    /// A cell's ray: its start relative to the scene's origin, and its unit direction.
-    #[inline(always)]
-    fn of(&self, column: u32, row: u32) -> (DVec3, DVec3) {
-        let (column, row) = (self.first[0] + column, self.first[1] + row);
-        match &self.start {
-            RayStart::Above(grid, top) => {
-                let at = grid.centre(column, row) + TIE * grid.cell;
-                (at.extend(*top) - self.origin, DVec3::NEG_Z)
-            }
-            RayStart::Eye(eye, lens) => {
-                let direction = lens.direction(column, row);
-                let near = direction * (Camera::NEAR_M / direction.dot(lens.forward()));
-                (*eye + near - self.origin, direction)
-            }
-            RayStart::Before(side, away) => {
-                (side.centre(column, row) + side.to_viewer * *away - self.origin, -side.to_viewer)
-            }
-        }
-    }
-}
-
-/// How far in front of its own plane a view along parallel rays begins, metres: before a box.
-fn away(side: &Elevation, (low, high): (DVec3, DVec3)) -> f64 {
-    let nearest = DVec3::select(side.to_viewer.cmpgt(DVec3::ZERO), high, low);
-    (nearest - side.target).dot(side.to_viewer) + 1.0
-}
-
 /// What a ray sees, given its first hit.
 fn seen(scene: &Scene, view: &View, ray: (DVec3, DVec3), first_hit: Option<(u32, f64)>) -> RayEnd {
     let (origin, direction) = ray;
@@ -428,27 +350,6 @@ fn seen(scene: &Scene, view: &View, ray: (DVec3, DVec3), first_hit: Option<(u32,
         Some((face, distance)) if distance <= ground.distance => RayEnd::of(face, distance),
         _ => ground,
     }
-}
-
-/// The distance from the origin at which rays begin, metres.
-pub(super) fn reach(scene: &Scene, view: &View) -> f64 {
-    let farthest = match view {
-        View::Plan(grid) => {
-            let [west, south, east, north] = grid.region();
-            DVec3::new(west.abs().max(east.abs()), south.abs().max(north.abs()), scene.ground.abs())
-        }
-        View::Camera(camera) => camera.eye.abs(),
-        View::Elevation(side) => {
-            let (low, high) = scene.receivers.bounds().unwrap_or_default();
-            let half = side.half_size();
-            if side.is_level() {
-                (side.target.abs() + half.max_element()).max(low.abs()).max(high.abs()) + 1.0
-            } else {
-                side.target.abs() + half.length() + away(side, (low, high)).abs()
-            }
-        }
-    };
-    (farthest + scene.casters.origin.abs()).max_element()
 }
 
 impl Technique for RayCast {

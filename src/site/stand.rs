@@ -221,17 +221,7 @@ fn anchored(
     let is_elsewhere = zero.on_map.is_none() && away > FAR_M;
     let Some(there) = there.filter(|_| !is_elsewhere).or(placement.position).or(is_elsewhere.then_some(DVec3::ZERO))
     else {
-        let what = format!("by its {said_by} it stands at {}, {} from the place", degrees(at), length(away));
-        return Err(StandFault::Key(
-            "position",
-            message![
-                what;
-                "write ",
-                set_to("[[model]]", "position", "[0.0, 0.0, 0.0]".to_owned(), "`position = [0.0, 0.0, 0.0]` under [[model]]".to_owned()),
-                " to put its zero at the place, or correct ",
-                place_setting("latitude and longitude in [place]")
-            ],
-        ));
+        return Err(too_far_anchor(said_by, at, away));
     };
     // a building that is moved keeps its true north, not the north at its anchor
     let moved_to = match placement.position {
@@ -278,7 +268,7 @@ fn too_far_anchor(said_by: &str, at: GeodeticPoint, away: f64) -> StandFault {
             what;
             "write ",
             set_to("[[model]]", "position", at_place.to_owned(), written),
-            " to have its zero at the place, or correct ",
+            " to put its zero at the place, or correct ",
             place_setting("latitude and longitude in [place]")
         ],
     )

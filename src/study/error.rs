@@ -78,7 +78,7 @@ pub enum StudyError {
     /// The sun's position cannot be computed.
     Sun(#[from] SunError),
     /// The rule cannot be applied to the site.
-    Rule(#[from] RuleError),
+    Rule(Message),
     /// Drawing failed.
     Shadow(#[from] ShadowError),
     /// The listener ended the work.
@@ -87,9 +87,14 @@ pub enum StudyError {
 
 plain_display!(StudyError);
 
+impl From<RuleError> for StudyError {
+    fn from(error: RuleError) -> StudyError {
+        StudyError::Rule(error.to_string().into())
+    }
+}
+
 impl Worded for StudyError {
     fn message(&self) -> Message {
-        const DRIVER: &str = "install a driver (on Linux mesa-vulkan-drivers draws in software)";
         match self {
             StudyError::Conflict { field, message } => message.clone().of((*field).into()),
             StudyError::Misfit(misfit) => misfit.message(),
@@ -115,14 +120,7 @@ impl Worded for StudyError {
             StudyError::NoPatch => {
                 message!["no component that receives has a surface"; "see ", setting("[[model]]", "receives", "`receives` in the site file")]
             }
-            StudyError::NoSunToSee { time, below_deg } => message![
-                Field::View,
-                format!(
-                    ": no sun sees the site at {}: it is {below_deg:.1}° below the horizon",
-                    time.format("%Y-%m-%d %H:%M")
-                );
-                "take times of day, or look from elsewhere"
-            ],
+            StudyError::NoSunToSee { time, below_deg } => no_sun_to_see(time, *below_deg),
             StudyError::NoInstant => message!["there is no instant to draw"],
             StudyError::Components { list, length, components } => message![
                 format!("the site's list `{list}` has {length} entries, and its mesh {components} components");
@@ -139,21 +137,37 @@ impl Worded for StudyError {
                 format!("verify draws with every technique on a graphics adapter, and {why}");
                 DRIVER
             ],
-            StudyError::NoDevice(why) => message![
-                why.clone(), ", after another device had failed, and only a graphics adapter can draw what was requested";
-                "update its driver, close other programs that draw on it, take larger cells, or install a driver that draws in \
-                 software (on Linux mesa-vulkan-drivers)"
-            ],
+            StudyError::NoDevice(why) => no_device(why),
             StudyError::NoDay => message![
                 "there is no sun at any of the study's instants, so there is nothing to compare";
                 "choose a window by day", Piece::Where(Field::From, pieces![" with ", Field::From, " and ", Field::To])
             ],
             StudyError::Sun(error) => error.message(),
-            StudyError::Rule(error) => error.to_string().into(),
+            StudyError::Rule(message) => message.clone(),
             StudyError::Shadow(error) => error.message(),
             StudyError::Interrupted => message!["interrupted"],
         }
     }
+}
+
+/// The way to a graphics adapter where there is none.
+const DRIVER: &str = "install a driver (on Linux mesa-vulkan-drivers draws in software)";
+
+fn no_sun_to_see(time: &DateTime<Zone>, below_deg: f64) -> Message {
+    let time = time.format("%Y-%m-%d %H:%M");
+    message![
+        Field::View,
+        format!(": no sun sees the site at {time}: it is {below_deg:.1}° below the horizon");
+        "take times of day, or look from elsewhere"
+    ]
+}
+
+fn no_device(why: &str) -> Message {
+    message![
+        why.to_owned(), ", after another device had failed, and only a graphics adapter can draw what was requested";
+        "update its driver, close other programs that draw on it, take larger cells, or install a driver that draws in \
+         software (on Linux mesa-vulkan-drivers)"
+    ]
 }
 
 impl StudyError {

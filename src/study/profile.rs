@@ -250,7 +250,7 @@ impl TileWork<'_> {
             // the sums of a gap that is left in its midst are of no use
             let keeps = self.wants.keep_every.is_some() && sum.searches_before(at);
             let before_gap = keeps.then(|| sum.so_far()).transpose()?;
-            let added = sum.add(at, technique, self.wants, on_event);
+            let added = sum.add(at, technique, self.wants, &mut || tell(on_event, Event::Between));
             if let (Err(StudyError::Interrupted), Some(shaded)) = (&added, before_gap) {
                 self.keep(index, shaded, on_event)?;
             }

@@ -4,7 +4,7 @@
 //! searched singly are searched only where the two instants differ, by halving.
 
 use super::gaps::{Gap, Gaps};
-use super::{Event, OnEvent, StudyError, Wants, night, tell};
+use super::{StudyError, Wants, night};
 use crate::gpu::Gpu;
 use crate::profile::Shaded;
 use crate::profile::accumulate::Sum;
@@ -12,6 +12,9 @@ use crate::shadow::{DifferingCells, DrawnMask, LightChange, ShadowError, SingleC
 use crate::site::Site;
 use crate::view::{Bits, Mask, Tile, View};
 use std::sync::Arc;
+
+/// Asks a listener between the moments of a gap whether the work goes on; an error ends it.
+pub(super) type GoOn<'a> = dyn FnMut() -> Result<(), StudyError> + 'a;
 
 /// The running sum of a tile.
 pub(super) struct TileSum<'a> {
@@ -49,7 +52,7 @@ impl<'a> TileSum<'a> {
         at: usize,
         technique: &mut dyn Technique,
         wants: &Wants,
-        on_event: &mut OnEvent<'_>,
+        go_on: &mut GoOn<'_>,
     ) -> Result<(Option<Mask>, Option<Bits>), StudyError> {
         let instant = &self.site.track.instants[at];
         if instant.night {
@@ -57,7 +60,7 @@ impl<'a> TileSum<'a> {
         }
         let single = self.gaps.touch(at).then(|| technique.single_cells()).flatten();
         if single != Some(SingleCells::All) {
-            self.add_moments(at, technique, on_event)?;
+            self.add_moments(at, technique, go_on)?;
         }
         let begun = match (&single, self.before.take()) {
             (Some(single), before) if self.gaps.before(at).is_some() => match before {
@@ -77,7 +80,7 @@ impl<'a> TileSum<'a> {
                 self.add_bits(&after, own_secs)?;
                 self.add_bits(&bits.with(&after, |all, single| all & !single), among_secs)?;
                 if let (Some(gap), Some(before)) = (self.gaps.before(at), begun) {
-                    CellSearch { technique, gap, sum: &mut self.sum }.add_gap([&before, &after], on_event)?;
+                    CellSearch { technique, gap, sum: &mut self.sum }.add_gap([&before, &after], go_on)?;
                 }
                 self.before = Some((at, after));
             }
@@ -91,12 +94,12 @@ impl<'a> TileSum<'a> {
         &mut self,
         at: usize,
         technique: &mut dyn Technique,
-        on_event: &mut OnEvent<'_>,
+        go_on: &mut GoOn<'_>,
     ) -> Result<(), StudyError> {
         for moment in self.gaps.before(at).iter().flat_map(Gap::moments) {
             let (to_sun, secs) = moment?;
             self.sum.add(&technique.draw_whole(to_sun)?, secs)?;
-            tell(on_event, Event::Between)?;
+            go_on()?;
         }
         Ok(())
     }
@@ -135,7 +138,7 @@ struct CellSearch<'a> {
 
 impl CellSearch<'_> {
     /// Adds the gap's seconds to cells that are in shadow at both ends, and to others as many as they are found to be.
-    fn add_gap(&mut self, ends: [&Bits; 2], on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+    fn add_gap(&mut self, ends: [&Bits; 2], go_on: &mut GoOn<'_>) -> Result<(), StudyError> {
         self.sum.add_gap(ends, self.gap.secs())?;
         let [Bits { width, height, words: before }, Bits { words: after, .. }] = ends;
         if before == after {
@@ -148,7 +151,7 @@ impl CellSearch<'_> {
             let changes = self.technique.changes(&cells, first..(first + rows).min(height))?;
             let shaded: Vec<(usize, u32)> = changes.iter().map(|change| self.shaded_secs(change)).collect();
             self.sum.add_in_gap(&shaded)?;
-            tell(on_event, Event::Between)?;
+            go_on()?;
         }
         Ok(())
     }

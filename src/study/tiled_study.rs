@@ -10,7 +10,6 @@ use crate::sun;
 use crate::view::{Tile, View};
 use std::cell::OnceCell;
 use std::fmt;
-use std::ops::ControlFlow;
 
 /// A prepared study that reports its sums tile by tile ([`Event::Tile`](super::Event::Tile),
 /// [`Event::Summed`](super::Event::Summed)), so that memory need not hold all of them.
@@ -58,9 +57,7 @@ impl TiledStudy<'_> {
         for instant in instants.iter().filter(|instant| !instant.night) {
             let at = track.binary_search_by_key(&instant.time, |own| own.time);
             match at.ok().filter(|at| track[*at].weight_secs == instant.weight_secs) {
-                Some(at) => {
-                    drop(sum.add(at, technique.as_mut(), &Wants::default(), &mut |_| ControlFlow::Continue(()))?)
-                }
+                Some(at) => drop(sum.add(at, technique.as_mut(), &Wants::default(), &mut || Ok(()))?),
                 None => sum.add_mask(&technique.draw(instant.to_sun)?, instant.weight_secs)?,
             }
         }

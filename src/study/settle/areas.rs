@@ -1,9 +1,10 @@
 //! Areas that lie under something: a garden that was drawn on the ground below its podium would never see the sun.
 
+use super::super::ground_heights::GroundHeights;
 use super::obstacles::Obstacles;
 use crate::mesh::Mesh;
 use crate::message::{Message, message};
-use crate::site::{AreaSurface, GroundKind, JudgedArea, JudgedSite, JudgedState};
+use crate::site::{AreaSurface, JudgedArea, JudgedSite};
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 
@@ -25,43 +26,18 @@ pub(super) fn notes(site: &JudgedSite) -> Vec<Message> {
     let ground = state.ground.level;
     let corners = || bounded.iter().flat_map(|area| area.rings.iter().flatten()).map(|corner| corner.extend(ground));
     let casters = Obstacles::new(&state.mesh, &state.casts, corners());
-    let terrain = Terrain::of(state, corners());
+    let heights = GroundHeights::of(&state.mesh, &state.ground, &corners().collect::<Vec<_>>());
     let kept = state.mesh.of_components(&state.casts);
-    bounded.iter().filter_map(|area| of_area(area, &terrain, &casters, &kept)).collect()
+    bounded.iter().filter_map(|area| of_area(area, &heights, &casters, &kept)).collect()
 }
 
-/// The height of the ground from above.
-struct Terrain {
-    measured: Option<(Obstacles, f64)>,
-    level: f64,
-}
-
-impl Terrain {
-    fn of(state: &JudgedState, points: impl Iterator<Item = DVec3>) -> Terrain {
-        let is_terrain: Vec<bool> = state.mesh.components.iter().map(|component| component.is_terrain).collect();
-        let top = state.mesh.top() + 1.0;
-        let high = points.map(|point| point.with_z(top));
-        let measured =
-            (state.ground.kind == GroundKind::Terrain).then(|| (Obstacles::new(&state.mesh, &is_terrain, high), top));
-        Terrain { measured, level: state.ground.level }
-    }
-
-    fn height(&self, at: DVec2) -> f64 {
-        let below = || {
-            let (terrain, top) = self.measured.as_ref()?;
-            Some(top - terrain.first(at.extend(*top), DVec3::NEG_Z)?)
-        };
-        below().map_or(self.level, |height| height.max(self.level))
-    }
-}
-
-fn of_area(area: &JudgedArea, terrain: &Terrain, casters: &Obstacles, kept: &Mesh) -> Option<Message> {
+fn of_area(area: &JudgedArea, heights: &GroundHeights, casters: &Obstacles, kept: &Mesh) -> Option<Message> {
     let points = points(&area.rings);
     let mut covers: FxHashMap<usize, usize> = FxHashMap::default();
     for at in &points {
         let height = match area.surface {
             AreaSurface::Level(level) => level,
-            AreaSurface::Ground(above) => terrain.height(*at) + above,
+            AreaSurface::Ground(above) => heights.height(at.extend(0.0)) + above,
             AreaSurface::Faces(_) => return None,
         };
         // a millimetre above itself, as all that is judged
