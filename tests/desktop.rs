@@ -21,8 +21,8 @@ mod viewing;
 mod xvfb;
 
 use eframe::egui::{self, Event, Key, Pos2};
-use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
+use egui_kittest::{Harness, HarnessBuilder};
 use gnomon::desktop::{self, App};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -34,13 +34,26 @@ pub(crate) fn window(path: Option<&Path>) -> Harness<'static, App> {
 
 /// The same in another theme, with a scale of the interface; always of 1280 × 720 pixels.
 pub(crate) fn scaled(path: Option<&Path>, scale: f32, theme: egui::Theme) -> Harness<'static, App> {
-    let path = path.map(Path::to_owned);
-    let mut harness = Harness::<App>::builder()
+    built(builder(scale, theme), path)
+}
+
+/// A window in which letters that no font has are boxes, as they are for users.
+pub(crate) fn with_boxes(path: Option<&Path>) -> Harness<'static, App> {
+    built(builder(1.0, egui::Theme::Light).allow_missing_glyphs(), path)
+}
+
+fn builder(scale: f32, theme: egui::Theme) -> HarnessBuilder<App> {
+    Harness::<App>::builder()
         .with_size(egui::vec2(1280.0, 720.0) / scale)
         .with_pixels_per_point(scale)
         .with_theme(theme)
         .wgpu_setup(desktop::setup())
-        .build_eframe(move |cc| App::new(cc, path.as_deref()).expect("an adapter: run tests/run.sh"));
+}
+
+fn built(builder: HarnessBuilder<App>, path: Option<&Path>) -> Harness<'static, App> {
+    let path = path.map(Path::to_owned);
+    let mut harness =
+        builder.build_eframe(move |cc| App::new(cc, path.as_deref()).expect("an adapter: run tests/run.sh"));
     settle(&mut harness);
     harness
 }

@@ -64,7 +64,7 @@ fn a_model_without_an_ending_is_converted() {
     fs::copy(folder.path().join("tower.glb"), folder.path().join("tower")).unwrap();
     done(folder.path(), "convert tower out.glb");
     assert!(folder.path().join("out.glb").is_file());
-    fails(folder.path(), "convert site.toml out.glb", 2, &["site.toml is none"]);
+    fails(folder.path(), "convert site.toml out.glb", 2, &["site.toml is not a model"]);
 }
 
 #[test]

@@ -40,7 +40,7 @@ fn far_years_are_noted_once_and_reports_name_the_rules() {
     std::fs::write(folder.path().join("open.toml"), text.replace("tower.glb", "open.glb")).unwrap();
     let note = format!(
         "2100 is more than a year after tz {}, whose rules are used for the clock of Europe/Paris; governments may have \
-         changed it since",
+         changed them since",
         version()
     );
     for command in COMMANDS.iter().chain(&["verify . --size 16 --sun-samples 1 --step 2h"]) {

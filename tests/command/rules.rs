@@ -34,7 +34,7 @@ fn a_rule_is_shown_as_it_is_written() {
 #[test]
 fn a_rule_that_is_none_names_the_nearest() {
     let folder = tempfile::tempdir().unwrap();
-    fails(folder.path(), "rules show uk-bre", 2, &["no rule uk-bre", "uk-bre-209-sun-on-ground", "gnomon rules"]);
+    fails(folder.path(), "rules show uk-bre", 2, &["no rule `uk-bre`", "uk-bre-209-sun-on-ground", "gnomon rules"]);
     fails(folder.path(), "rules show", 2, &["<ID>"]);
     fails(folder.path(), "rules list", 2, &["list"]);
 }

@@ -153,7 +153,7 @@ fn the_sun_says_what_it_takes_from_models() {
         ),
         // a place that may be a program's own gives way to another
         ("both.toml", &["place from high.gltf, gnomon: 42.36 N 71.06 W, 35.00 m above the sea;"]),
-        ("written.toml", &["high.gltf says the elevation of the place, 35.00 m"]),
+        ("written.toml", &["high.gltf gives the elevation of the place, 35.00 m"]),
     ] {
         let asked = format!("sun {site} --at 2026-06-21T12:00");
         let told = crate::shared::program::stderr(&crate::shared::program::gnomon(folder.path(), &asked));

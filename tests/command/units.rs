@@ -154,8 +154,9 @@ fn a_model_on_its_side_is_told_and_stands_with_its_key() {
     let words = "model.glb looks as if it lies on its side";
     let folder = folder(&lying(), "");
     let study = gnomon(folder.path(), "shadow . --at 2026-09-18T12:00 --mask m.png --engine cpu --size 50");
-    for told in [done(folder.path(), "check ."), done(folder.path(), "check model.glb"), stderr(&study)] {
-        assert!(told.contains(words) && told.contains("`up = \"z\"`") && !told.contains("scale"), "{told}");
+    let [by_site, by_model] = ["check .", "check model.glb"].map(|command| done(folder.path(), command));
+    for (told, key) in [(by_site, "`up = \"z\"`"), (by_model, "--up z"), (stderr(&study), "`up = \"z\"`")] {
+        assert!(told.contains(words) && told.contains(key) && !told.contains("scale"), "{told}");
     }
     assert!(!done(folder.path(), "check model.glb --up z").contains(words));
     assert!(mends(&lying(), "up = \"y\"\n").is_empty());

@@ -53,7 +53,7 @@ fn volumes_say_what_they_did() {
     std::fs::write(folder.path().join("deep.toml"), format!("{PLACE}{deep}")).unwrap();
     fails(folder.path(), "volumes deep.toml --at 2026-09-18T15:00 --quiet", 1, &["nothing above the ground", "level"]);
     let long = gnomon(folder.path(), "volumes . --at 2026-09-18T19:52 --out long.glb --no-refraction");
-    assert!(stderr(&long).contains("volumes reach 16 km far"), "{}", stderr(&long));
+    assert!(stderr(&long).contains("volumes are up to 16 km long"), "{}", stderr(&long));
 }
 
 #[test]

@@ -255,7 +255,7 @@ fn what_an_export_notes_is_shown() {
     // a letter that no font has
     let text = std::fs::read_to_string(&site).unwrap().replace("Works", "Works \u{A4CF}");
     std::fs::write(&site, text).unwrap();
-    let mut harness = window(Some(&site));
+    let mut harness = with_boxes(Some(&site));
     let noted = |harness: &Harness<'_, App>| {
         harness.query_all_by_label_contains("no font has the letters \u{A4CF} of \"Works").count()
     };
