@@ -16,7 +16,7 @@ pub struct AreaTable {
     /// The reference system of that file's coordinates.
     pub crs: Option<String>,
     /// The components whose upper faces it is.
-    pub component: Option<NameList>,
+    pub component: Option<WrittenNames>,
     /// Metres above the ground.
     pub height: Option<f64>,
     /// Metres above the place's point.
@@ -29,7 +29,7 @@ pub struct WindowTable {
     /// What people call it.
     pub name: Option<String>,
     /// The components whose pieces are panes.
-    pub component: Option<NameList>,
+    pub component: Option<WrittenNames>,
     /// The four corners of the glass, metres.
     pub corners: Option<[[f64; 3]; 4]>,
     /// What its room is called.
@@ -56,7 +56,7 @@ pub struct FacadeTable {
     /// What people call it.
     pub name: Option<String>,
     /// The components whose upright faces it is.
-    pub component: Option<NameList>,
+    pub component: Option<WrittenNames>,
     /// Metres from point to point.
     pub spacing: Option<f64>,
     /// Metres above the ground.
@@ -106,16 +106,16 @@ pub struct BeforeTable {
     /// The site file of that state.
     pub site: Option<String>,
     /// The components that do not stand there yet.
-    pub absent: Option<NameList>,
+    pub absent: Option<WrittenNames>,
     /// The components that stand there and are gone by now.
-    pub demolished: Option<NameList>,
+    pub demolished: Option<WrittenNames>,
 }
 
 /// One name, or several.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct NameList(pub Vec<String>);
+pub struct WrittenNames(pub Vec<String>);
 
-impl Serialize for NameList {
+impl Serialize for WrittenNames {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         match self.0.as_slice() {
             [name] => to.serialize_str(name),
@@ -124,14 +124,14 @@ impl Serialize for NameList {
     }
 }
 
-impl<'de> Deserialize<'de> for NameList {
+impl<'de> Deserialize<'de> for WrittenNames {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         let wrong = || D::Error::custom("expected a name in quotes or a list of such names");
         match Value::deserialize(from)? {
-            Value::String(name) => Ok(NameList(vec![name])),
+            Value::String(name) => Ok(WrittenNames(vec![name])),
             Value::Array(names) => {
                 let text = |name| if let Value::String(name) = name { Ok(name) } else { Err(wrong()) };
-                names.into_iter().map(text).collect::<Result<_, _>>().map(NameList)
+                names.into_iter().map(text).collect::<Result<_, _>>().map(WrittenNames)
             }
             _ => Err(wrong()),
         }

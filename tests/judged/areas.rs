@@ -49,7 +49,7 @@ fn borders_that_bound_nothing_are_told() {
     told("[[0, 0], [10, 0], [10, 10], [5, 0], [0, 10]]", &["crosses or touches itself"]);
     // out and back along one line
     told("[[0, 0], [10, 0], [10, 10], [10, 5], [20, 5], [10, 5], [10, 2], [0, 10]]", &["crosses or touches itself"]);
-    told("[[0, 0], [10, 0], [20, 0], [10, 0], [10, 10]]", &["crosses or touches itself", "corners 2 and 3"]);
+    told("[[0, 0], [10, 0], [20, 0], [10, 0], [10, 10]]", &["crosses or touches itself", "corners 3 and 4"]);
     told("[[0, 0], [nan, 0], [1, 1]]", &["number 2", "50 km"]);
     told("[[0, 0], [inf, 0], [1, 1]]", &["number 2"]);
     told(
@@ -69,7 +69,10 @@ fn keys_that_exclude_each_other_are_told() {
     fails("[[area]]\ncomponent = \"terrace\"\nlevel = 3", &["[[area]] level", "`component`"]);
     fails("[[area]]\ncomponent = \"terace\"", &["[[area]] component", "\"terace\"", "\"terrace\""]);
     fails("[[area]]\ncomponent = []", &["[[area]] component", "no component"]);
-    fails("[[area]]\ncomponent = \"glass\"", &["[[area]] component", "upward"]);
+    let upright = super::folder("[[area]]\ncomponent = \"fence\"");
+    let fence = [[0.0, 0.0, 0.0], [9.0, 0.0, 0.0], [9.0, 0.0, 2.0], [0.0, 0.0, 2.0]];
+    super::write(&upright, "town.obj", &super::Drawing::default().object("fence").sheet(fence).text);
+    super::fails_in(upright.path(), &["[[area]] component", "no face that looks upward"]);
     let twice = format!("{}{}", area("[[0, 0], [1, 0], [0, 1]]"), area("[[5, 5], [6, 5], [5, 6]]"));
     fails(&twice, &["[[area]] number 2 name", "\"Garden\"", "otherwise"]);
 }

@@ -10,7 +10,8 @@ fn settled(tables: &str) -> JudgedSite {
 }
 
 fn refused(tables: &str, words: &[&str]) {
-    let message = settle(judged(tables)).expect_err("a mistake").to_string();
+    let Err(error) = settle(judged(tables)) else { panic!("a mistake is taken: {words:?}") };
+    let message = error.to_string();
     assert!(!message.contains('\n'), "{message}");
     for word in words {
         assert!(message.contains(word), "{message:?} does not say {word:?}");
@@ -100,4 +101,23 @@ fn areas_under_something_are_said() {
         &format!("{HEAD}{}", area("").replace("[[12, -4], [18, -4], [18, 4], [12, 4]]", "[[0, 20], [5, 20], [0, 25]]")),
     );
     assert!(!notes(&settle(super::open(open.path())).unwrap()).contains("\"Deck\""));
+}
+
+/// The sample has nothing in it that is told.
+#[test]
+fn the_headquarters_are_judged() {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("sites/headquarters/judged.toml");
+    let site = settle(super::open(&path)).unwrap();
+    assert_eq!((site.areas.len(), site.windows.len(), site.year), (20, 3, 2026));
+    let plot = site.plot.as_ref().expect("a plot");
+    assert!(plot.sides.len() == 4 && plot.sides.iter().all(|side| side.road_m == 18.0));
+    let before = site.before.as_ref().expect("a state before");
+    let casters = |casts: &[bool]| casts.iter().filter(|casts| **casts).count();
+    assert!(casters(&before.casts) < casters(&site.now.casts));
+    assert_eq!(site.now.ground.level, before.ground.level);
+    assert!(site.windows.iter().all(|window| window.outward.distance(dvec3(0.0, -1.0, 0.0)) < 1e-9));
+    let told = notes(&site);
+    for word in ["lie less than", "far more open", "as open"] {
+        assert!(!told.contains(word), "{told}");
+    }
 }

@@ -72,6 +72,7 @@ fn corners_are_a_window() {
     assert!(site.now.casts.iter().all(|casts| *casts));
     for (corners, words) in [
         ("[[0, 0, 0], [1, 0, 0], [1, 0, 1], [0, 0, nan]]", &["no point"][..]),
+        ("[[nan, 0, 0], [1, 0, 0], [1, 0, 1], [0, 0, 1]]", &["no point"]),
         ("[[0, 0, 0], [1e9, 0, 0], [1, 0, 1], [0, 0, 1]]", &["50 km"]),
         ("[[0, 0, 0], [0, 0, 0], [1, 0, 1], [0, 0, 1]]", &["corners 1 and 2", "one point"]),
         ("[[0, 0, 0], [1, 0, 0], [0, 0, 1], [1, 0, 1]]", &["no rectangle", "order"]),

@@ -10,7 +10,7 @@ use crate::mesh::Mesh;
 use crate::mesh::patches::{MOST_TEXELS, Patches};
 use crate::message::{Message, message};
 use crate::site::error::SiteError;
-use crate::site::judged_tables::{AreaTable, NameList};
+use crate::site::judged_tables::{AreaTable, WrittenNames};
 use crate::site::written::WrittenSite;
 use crate::sun::Place;
 use glam::{DVec2, DVec3, Vec3};
@@ -135,7 +135,7 @@ fn of_outlines(
 }
 
 /// The faces of some components that look upward, in the world frame.
-fn upper_faces(table: &AskedTable, names: &NameList, mesh: &Mesh) -> Result<Vec<[DVec3; 3]>, SiteError> {
+fn upper_faces(table: &AskedTable, names: &WrittenNames, mesh: &Mesh) -> Result<Vec<[DVec3; 3]>, SiteError> {
     let chosen = table.chosen("component", names, mesh)?;
     let patches = Patches::of(mesh, &chosen, CELL_M, MOST_TEXELS);
     let mut faces = Vec::new();

@@ -1,11 +1,11 @@
 //! One of the tables that say what is judged, and what can be wrong with its keys.
 
-use crate::formats::composed;
+use crate::formats::{composed, on_disk};
 use crate::mesh::Mesh;
 use crate::message::{Message, message};
 use crate::site::error::{FieldLocation, SiteError};
 use crate::site::file::Names;
-use crate::site::judged_tables::NameList;
+use crate::site::judged_tables::WrittenNames;
 use crate::site::keys;
 use crate::site::names::names_of;
 use crate::site::overrides::refuse;
@@ -80,7 +80,7 @@ impl AskedTable<'_> {
     ///
     /// # Errors
     /// A name that no component has, and names that mean none.
-    pub(super) fn chosen(&self, key: &str, names: &NameList, mesh: &Mesh) -> Result<Vec<bool>, SiteError> {
+    pub(super) fn chosen(&self, key: &str, names: &WrittenNames, mesh: &Mesh) -> Result<Vec<bool>, SiteError> {
         let names = Names::Some(names.0.clone());
         if let Some((name, nearest)) = names.unknown(&names_of(&mesh.components)) {
             return Err(SiteError::UnknownName { at: self.key(key), name, nearest });
@@ -94,7 +94,7 @@ impl AskedTable<'_> {
 
     /// A file that it names, which is there.
     pub(super) fn file(&self, key: &str, name: &str) -> Result<PathBuf, SiteError> {
-        let path = self.written.folder.join(name);
+        let path = on_disk(&self.written.folder.join(name));
         if path.is_file() {
             return Ok(path);
         }

@@ -2,6 +2,7 @@
 
 use super::asked_table::AskedTable;
 use super::request::JudgedState;
+use crate::formats::on_disk;
 use crate::mesh::Mesh;
 use crate::message::{Message, message};
 use crate::site::error::SiteError;
@@ -91,16 +92,18 @@ fn other_site(
     name: &str,
     asked: &Overrides,
 ) -> Result<(JudgedState, Vec<Message>), SiteError> {
-    let path = site.written.folder.join(name);
+    let path = on_disk(&site.written.folder.join(name));
     if !path.exists() {
         let what = format!("there is no file {}", path.display());
         return Err(table.wrong("site", message![what; "write where it lies, from the site file's folder"]));
     }
     let mut other = WrittenSite::read_beside(&path, site.written, asked)?;
-    same_place(site.written, &other, asked)?;
     // a model's file may have said it
-    other.site.place.clone_from(&site.written.site.place);
-    other.site.place.get_or_insert_default().elevation = Some(site.place.elevation_m);
+    let mut own = site.written.clone();
+    own.site.place.get_or_insert_default().elevation = Some(site.place.elevation_m);
+    other.site.place.get_or_insert_default().elevation.get_or_insert(site.place.elevation_m);
+    same_place(&own, &other, asked)?;
+    other.site.place.clone_from(&own.site.place);
     let models = Models::read(&other, |path, options| asked.reading.read(path, options))?.with_terrain(&other)?;
     let [casts, receives] = models.roles(&other)?;
     let notes = models.notes(&other, &casts);

@@ -74,7 +74,7 @@ pub(super) fn rectangle(written: [[f64; 3]; 4]) -> Result<[DVec3; 4], Message> {
     const FARTHEST_M: f64 = 50_000.0;
     let corners = written.map(DVec3::from_array);
     let hint = "write metres east, north and up of the place";
-    if let Some(at) = corners.iter().position(|corner| !(corner.abs().max_element() <= FARTHEST_M)) {
+    if let Some(at) = corners.iter().position(|corner| !corner.is_finite() || corner.abs().max_element() > FARTHEST_M) {
         return Err(message![format!("{} is no point within 50 km", corners[at]); hint]);
     }
     let sides: [f64; 4] = std::array::from_fn(|at| corners[at].distance(corners[(at + 1) % 4]));

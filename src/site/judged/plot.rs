@@ -83,7 +83,7 @@ fn sides(table: &AskedTable, plot: &PlotTable, ring: &CheckedRing) -> Result<Vec
     }
     for neighbour in plot.neighbours.iter().flatten() {
         let side = side_of("neighbours", neighbour.side)?;
-        if !(neighbour.higher.abs() <= WIDEST_M) {
+        if !(-WIDEST_M..=WIDEST_M).contains(&neighbour.higher) {
             let what = format!("a height of {} is not between -{WIDEST_M} and {WIDEST_M}", neighbour.higher);
             return Err(
                 table.wrong("neighbours", message![what; "write metres, for example { side = 3, higher = 1.5 }"])

@@ -69,7 +69,7 @@ pub(super) fn checked(written: &[Vec<DVec2>]) -> Result<Vec<CheckedRing>, Messag
 
 /// The corners of one border without repeats.
 fn ring(written: &[DVec2], of: &str) -> Result<CheckedRing, Message> {
-    if let Some(at) = written.iter().position(|corner| !(corner.abs().max_element() <= FARTHEST_M)) {
+    if let Some(at) = written.iter().position(|corner| !corner.is_finite() || corner.abs().max_element() > FARTHEST_M) {
         let what = format!("has a corner, number {} {of}at {}, that is no point within 50 km", at + 1, written[at]);
         return Err(message![what; "write metres east and north of the place, for example [12.0, -3.0]"]);
     }
@@ -135,6 +135,11 @@ fn meeting(rings: &[CheckedRing]) -> Option<[RingSide; 2]> {
     for (at, one) in sides.iter().enumerate() {
         let east = one.from.x.max(one.to.x) + TOUCH_M;
         for other in sides[at + 1..].iter().take_while(|other| west(other) <= east) {
+            let lies_beside = one.from.y.max(one.to.y) + TOUCH_M < other.from.y.min(other.to.y)
+                || other.from.y.max(other.to.y) + TOUCH_M < one.from.y.min(one.to.y);
+            if lies_beside {
+                continue;
+            }
             let count = rings[one.ring].corners.len();
             let follows = |first: &RingSide, then: &RingSide| (first.index + 1) % count == then.index;
             let meets = match one.ring == other.ring {

@@ -3,7 +3,7 @@
 use super::request::JudgedWindow;
 use super::windows::AskedWindows;
 use crate::choice::nearest;
-use crate::formats::composed;
+use crate::formats::{composed, on_disk};
 use crate::message::{Message, few, message};
 use crate::site::csv_lines::{CsvLines, text_of};
 use crate::site::error::{FieldLocation, SiteError};
@@ -45,7 +45,7 @@ pub(super) fn add_rooms(written: &WrittenSite, asked: &mut AskedWindows) -> Resu
         }
         let names_it = |index: usize| {
             let rooms = tables.get(index).and_then(|other| other.rooms.as_ref());
-            rooms.is_some_and(|rooms| written.folder.join(rooms) == path)
+            rooms.is_some_and(|rooms| on_disk(&written.folder.join(rooms)) == path)
         };
         let of_file: Vec<usize> = (0..asked.list.len()).filter(|at| names_it(asked.of_table[*at])).collect();
         let note = add_file(&path, name, &mut asked.list, &of_file)?;

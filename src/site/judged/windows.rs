@@ -6,7 +6,7 @@ use super::request::JudgedWindow;
 use crate::mesh::Mesh;
 use crate::message::{Message, few, message};
 use crate::site::error::SiteError;
-use crate::site::judged_tables::{NameList, WindowTable};
+use crate::site::judged_tables::{WindowTable, WrittenNames};
 use crate::site::laid::pieces;
 use crate::site::written::WrittenSite;
 use glam::DVec3;
@@ -88,7 +88,7 @@ fn add_panes(
     asked: &mut AskedWindows,
     table: &AskedTable,
     plain: &JudgedWindow,
-    (names, mesh): (&NameList, &Mesh),
+    (names, mesh): (&WrittenNames, &Mesh),
 ) -> Result<(), SiteError> {
     let chosen = table.chosen("component", names, mesh)?;
     let (mut found, mut bulky, mut odd) = (0_usize, Vec::new(), Vec::new());
