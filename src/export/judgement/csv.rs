@@ -32,7 +32,7 @@ fn cells(judgement: &Judgement, of: &ReceiverRuling) -> Vec<String> {
     let share = |quantity| of.area.and_then(|area| share_of(quantity, area.m2));
     let own_share = share(finding.map(|finding| finding.value));
     let point = of.points.first();
-    let at = |of: fn(&glam::DVec3) -> f64| told(point.map(of).map(|at| (at * 1000.0).round() / 1000.0));
+    let at = |of: fn(&glam::DVec3) -> f64| written(point.map(of).map(|at| (at * 1000.0).round() / 1000.0));
     let difference = value.zip(before.map(|before| number(before).0)).map(|(now, before)| now - before);
     debug_assert!(finding.is_none() || secs_of(finding.map(|finding| finding.value)).is_none() || unit == "s");
     vec![
@@ -48,15 +48,15 @@ fn cells(judgement: &Judgement, of: &ReceiverRuling) -> Vec<String> {
         at(|point| point.y),
         at(|point| point.z),
         unit.to_owned(),
-        told(value),
-        told(limit.map(|limit| number(limit).0)),
-        told(finding.and_then(|finding| finding.margin)),
-        told(before.map(|before| number(before).0)),
-        told(difference),
-        told(own_share),
-        told(share(limit)),
-        told(share(before)),
-        told(of.area.filter(|_| own_share.is_some()).map(|area| area.error_m2 / area.m2)),
+        written(value),
+        written(limit.map(|limit| number(limit).0)),
+        written(finding.and_then(|finding| finding.margin)),
+        written(before.map(|before| number(before).0)),
+        written(difference),
+        written(own_share),
+        written(share(limit)),
+        written(share(before)),
+        written(of.area.filter(|_| own_share.is_some()).map(|area| area.error_m2 / area.m2)),
         finding.and_then(|finding| finding.excuse).map(excuse).unwrap_or_default(),
     ]
 }

@@ -45,7 +45,7 @@ pub(super) fn share_of(quantity: Option<Quantity>, m2: f64) -> Option<f64> {
     quantity.and_then(|quantity| if let Quantity::AreaM2(part) = quantity { Some(part / m2) } else { None })
 }
 
-/// The seconds that are told of a receiver where no finding has any: those of the day that counts least.
+/// The seconds that are reported for a receiver where no finding has any: those of the day that counts least.
 pub(super) fn least_counted(receiver: &ReceiverRuling) -> Option<(usize, i64)> {
     let counted = receiver.counts.iter().map(|count| count.now_secs).enumerate();
     counted.min_by_key(|(_, secs)| *secs)
