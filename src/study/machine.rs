@@ -95,7 +95,7 @@ impl Machine {
             // textures of what is seen, of the depth that is judged, of mask and sums; and what is read back
             (_, Some(_), _) => 64,
         };
-        // bits of both ends of a gap and of each halving
+        // bits of both ends of a gap, and what changes of a part of it
         let search = if searches && self.gpu.is_none() { 4 } else { 0 };
         // bits twice; fragments as they are added up, and as they are read
         drawing + search + u64::from(wants.bits) + if wants.statistics { 32 } else { 0 }
