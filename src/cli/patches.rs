@@ -44,7 +44,7 @@ pub(super) fn profile(asked: &ProfileArgs, site: &Site, watch: Stopwatch) -> any
     let mut text = lines(&answer.written);
     // writing to a String cannot fail
     let _ = writeln!(text, "{}", drawn_by(&answer.drawn, &site.ground));
-    text.push_str(&between(&answer.drawn, Receivers::Patches, &site));
+    text.push_str(&between(&answer.drawn, Receivers::Patches, site));
     text.push_str(&answer.summary);
     say(&text)
 }

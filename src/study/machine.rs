@@ -96,7 +96,7 @@ impl Machine {
             // textures of surfaces, judged depth, mask and sums, and the buffer that is read back
             (_, Some(_), _) => 64,
         };
-        // bits of both ends of a gap, and of each halving
+        // bits of both ends of a gap, and what changes of a part of it
         let search = if searches && self.gpu.is_none() { 4 } else { 0 };
         // bits twice; fragments as they are summed, and as they are read back
         drawing + search + u64::from(wants.bits) + if wants.statistics { 32 } else { 0 }
