@@ -173,7 +173,7 @@ fn frames_of_a_longer_animation_do_not_stay_among_those_of_a_shorter_one() {
     edited.save(out.join("frame-0004.png")).unwrap();
     let gif = std::fs::read(out.join("day.gif")).unwrap();
     let refused =
-        |name: &str| fails(at, &format!("{asked} 1h --quiet"), 1, &[name, "3 frames", "remove it", "another folder"]);
+        |name: &str| fails(at, &format!("{asked} 1h --quiet"), 1, &[name, "the 3 of this animation", "remove it", "another folder"]);
     refused("frame-0004.png");
     // so is one of another size, one without a GIF, and one that the GIF has not
     std::fs::write(out.join("frame-0004.png"), &third).unwrap();
