@@ -9,6 +9,7 @@ mod ifc_text;
 mod timing;
 
 use gnomon::formats::{self, ReadOptions};
+use ifc_text::FurnitureAs;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use timing::{median, timed};
@@ -19,13 +20,14 @@ const TIMES: usize = 5;
 /// A format's name, its extension, a function that writes a file with a given number of objects, and that number.
 type Writer = (&'static str, &'static str, fn(usize) -> Vec<u8>, usize);
 
-const WRITERS: [Writer; 6] = [
+const WRITERS: [Writer; 7] = [
     ("OBJ, triangles", "obj", obj, 18_200),
     ("STL, triangles", "stl", stl, 18_200),
     ("CityJSON, buildings", "city.json", city_json, 500),
     ("GeoJSON, footprints", "geojson", geojson, 500),
     ("ASCII grid, heights", "asc", ascii_grid, 100_000),
-    ("IFC, products", "ifc", ifc_text::ifc, 200),
+    ("IFC, products with face sets", "ifc", |products| ifc_text::ifc(products, FurnitureAs::FaceSet), 200),
+    ("IFC, products with breps", "ifc", |products| ifc_text::ifc(products, FurnitureAs::Brep), 200),
 ];
 
 fn main() {

@@ -1,4 +1,5 @@
-//! A synthetic IFC file: walls with one opening each, and furniture as triangles.
+//! Synthetic IFC files: walls with one opening each, and furniture as triangles, which a file has in a list of corner numbers
+//! or, as exporters of IFC 2x3 write them, each as a face with a loop of its own.
 
 use std::fmt::Write as _;
 
@@ -29,13 +30,25 @@ DATA;
 const AROUND: usize = 32;
 const ABOVE: usize = 16;
 
+/// How a file has the triangles of furniture.
+#[derive(Clone, Copy)]
+pub(crate) enum FurnitureAs {
+    /// A list of corner numbers: some 27 bytes a triangle.
+    FaceSet,
+    /// A face with a loop: some 110 bytes a triangle.
+    Brep,
+}
+
 /// A file with this many products: half of them are walls, with 12 triangles before they are cut, and half furniture.
-pub(crate) fn ifc(products: usize) -> Vec<u8> {
+pub(crate) fn ifc(products: usize, furniture_as: FurnitureAs) -> Vec<u8> {
     let (mut text, mut next) = (HEAD.to_owned(), 100);
     let mut contained = Vec::new();
     for unit in 0..products.div_ceil(2) {
         let (x, y, z) = (unit % 20 * 6000, unit / 20 % 20 * 6000, unit / 400 * 3000);
-        contained.extend([wall(&mut text, &mut next, [x, y, z]), furniture(&mut text, &mut next, [x, y + 1500, z])]);
+        contained.extend([
+            wall(&mut text, &mut next, [x, y, z]),
+            furniture(&mut text, &mut next, [x, y + 1500, z], furniture_as),
+        ]);
     }
     let contained: Vec<String> = contained.iter().map(|product| format!("#{product}")).collect();
     let relation = format!("IFCRELCONTAINEDINSPATIALSTRUCTURE('{}',$,$,$,({}),#12)", guid(next), contained.join(","));
@@ -85,8 +98,18 @@ fn wall(text: &mut String, next: &mut usize, at: [usize; 3]) -> usize {
 }
 
 /// A ball of triangles, 1 m across.
-fn furniture(text: &mut String, next: &mut usize, at: [usize; 3]) -> usize {
+fn furniture(text: &mut String, next: &mut usize, at: [usize; 3], furniture_as: FurnitureAs) -> usize {
     let place = placement(text, next, at);
+    let (points, triangles) = ball();
+    let body = match furniture_as {
+        FurnitureAs::FaceSet => face_set(text, next, &points, &triangles),
+        FurnitureAs::Brep => brep(text, next, &points, &triangles),
+    };
+    record(text, next, &format!("IFCFURNITURE('{}',$,'Ball',$,$,#{place},#{body},$,$)", guid(*next)))
+}
+
+/// The coordinates of a ball's corners, and triangles by their numbers from 0 on.
+fn ball() -> (Vec<String>, Vec<[usize; 3]>) {
     let mut points = vec!["(0.,0.,0.)".to_owned()];
     for parallel in 1..ABOVE {
         let (ring, height) = (std::f64::consts::PI * parallel as f64 / ABOVE as f64).sin_cos();
@@ -97,21 +120,40 @@ fn furniture(text: &mut String, next: &mut usize, at: [usize; 3]) -> usize {
     }
     points.push("(0.,0.,1000.)".to_owned());
     let number = |parallel: usize, meridian: usize| match parallel {
-        0 => 1,
-        ABOVE => points.len(),
-        _ => 2 + (parallel - 1) * AROUND + meridian % AROUND,
+        0 => 0,
+        ABOVE => points.len() - 1,
+        _ => 1 + (parallel - 1) * AROUND + meridian % AROUND,
     };
     let mut triangles = Vec::new();
     for parallel in 0..ABOVE {
         for meridian in 0..AROUND {
             let [a, b] = [number(parallel, meridian), number(parallel, meridian + 1)];
             let [c, d] = [number(parallel + 1, meridian + 1), number(parallel + 1, meridian)];
-            triangles.extend((a != b).then(|| format!("({a},{c},{b})")));
-            triangles.extend((c != d).then(|| format!("({a},{d},{c})")));
+            triangles.extend((a != b).then_some([a, c, b]));
+            triangles.extend((c != d).then_some([a, d, c]));
         }
     }
+    (points, triangles)
+}
+
+fn face_set(text: &mut String, next: &mut usize, points: &[String], triangles: &[[usize; 3]]) -> usize {
+    let triangles: Vec<String> = triangles.iter().map(|[a, b, c]| format!("({},{},{})", a + 1, b + 1, c + 1)).collect();
     let list = record(text, next, &format!("IFCCARTESIANPOINTLIST3D(({}))", points.join(",")));
     let faces = record(text, next, &format!("IFCTRIANGULATEDFACESET(#{list},$,.T.,({}),$)", triangles.join(",")));
-    let body = shape(text, next, "Tessellation", faces);
-    record(text, next, &format!("IFCFURNITURE('{}',$,'Ball',$,$,#{place},#{body},$,$)", guid(*next)))
+    shape(text, next, "Tessellation", faces)
+}
+
+fn brep(text: &mut String, next: &mut usize, points: &[String], triangles: &[[usize; 3]]) -> usize {
+    let points: Vec<usize> =
+        points.iter().map(|point| record(text, next, &format!("IFCCARTESIANPOINT({point})"))).collect();
+    let mut faces = Vec::new();
+    for corners in triangles {
+        let [a, b, c] = corners.map(|corner| points[corner]);
+        let ring = record(text, next, &format!("IFCPOLYLOOP((#{a},#{b},#{c}))"));
+        let bound = record(text, next, &format!("IFCFACEOUTERBOUND(#{ring},.T.)"));
+        faces.push(format!("#{}", record(text, next, &format!("IFCFACE((#{bound}))"))));
+    }
+    let shell = record(text, next, &format!("IFCCLOSEDSHELL(({}))", faces.join(",")));
+    let solid = record(text, next, &format!("IFCFACETEDBREP(#{shell})"));
+    shape(text, next, "Brep", solid)
 }

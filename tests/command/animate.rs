@@ -172,8 +172,9 @@ fn frames_of_a_longer_animation_do_not_stay_among_those_of_a_shorter_one() {
     edited.put_pixel(100, 100, image::Rgb([255, 0, 0]));
     edited.save(out.join("frame-0004.png")).unwrap();
     let gif = std::fs::read(out.join("day.gif")).unwrap();
-    let refused =
-        |name: &str| fails(at, &format!("{asked} 1h --quiet"), 1, &[name, "the 3 of this animation", "remove it", "another folder"]);
+    let refused = |name: &str| {
+        fails(at, &format!("{asked} 1h --quiet"), 1, &[name, "the 3 of this animation", "remove it", "another folder"])
+    };
     refused("frame-0004.png");
     // so is one of another size, one without a GIF, and one that the GIF has not
     std::fs::write(out.join("frame-0004.png"), &third).unwrap();
