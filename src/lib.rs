@@ -82,13 +82,14 @@ pub mod shadow;
 #[doc(hidden)]
 pub mod picture;
 
-#[doc(hidden)]
-pub mod judgement;
 pub mod profile;
 #[doc(hidden)]
 pub mod sunlight;
 #[doc(hidden)]
 pub mod verification;
+
+#[doc(hidden)]
+pub mod judgement;
 
 pub mod study;
 

@@ -18,12 +18,12 @@ use glam::DVec3;
 /// Where a receiver is shaded: points each by itself, or all of them together.
 pub(super) struct ShadedReceiver {
     /// Of each of these the mean is told.
-    pub(super) parts: Vec<ShadedPart>,
+    pub(super) parts: Vec<DarkPart>,
     pub(super) wall: Option<WallPlane>,
 }
 
 /// Points of a receiver that is lit where all of them are.
-pub(super) struct ShadedPart {
+pub(super) struct DarkPart {
     pub(super) points: Vec<JudgedPoint>,
     /// On each day, when a sun that counts would shine.
     pub(super) open: Vec<Vec<Spell>>,
@@ -138,9 +138,9 @@ fn told(judging: &Judging<'_>, mut receiver: ReceiverRuling, light: &PointLight)
     (receiver, ShadedReceiver { parts, wall: None })
 }
 
-fn shaded_part(points: Vec<JudgedPoint>, light: &PointLight) -> ShadedPart {
+fn shaded_part(points: Vec<JudgedPoint>, light: &PointLight) -> DarkPart {
     let counted = light.now.iter().map(|lit| crate::judgement::spells_of(lit)).collect();
-    ShadedPart { points, open: light.open.clone(), lit: counted }
+    DarkPart { points, open: light.open.clone(), lit: counted }
 }
 
 /// Of more days than this the deciding one alone is told in spells.
