@@ -6,6 +6,7 @@ mod clock;
 mod compare;
 mod draw;
 mod ground;
+mod judge;
 mod legend;
 pub(crate) mod letters;
 mod numbers;

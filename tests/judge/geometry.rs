@@ -83,12 +83,16 @@ fn lines_go_round_corners_or_straight_on() {
     for (corners, farthest) in [(CornerRule::Round, 5.0), (CornerRule::Mitred, 50f64.sqrt())] {
         let border = DeemedBorder::of(&plot, None, corners);
         let spots = border.spots(Band { from_m: 5.0, to_m: 5.0 + 1e-9 }, 100.0, 0.5);
-        let away: Vec<f64> = spots.iter().map(|spot| border.distance_m(spot.at)).collect();
-        let most = away.iter().copied().fold(0.0, f64::max);
-        assert!((most - farthest).abs() < 1e-6 && away.iter().all(|away| *away >= 5.0 - 1e-6), "{corners:?} {most}");
+        let from_plot = |at: DVec2| at.distance(at.clamp(DVec2::ZERO, corner(20.0, 10.0)));
+        let most = spots.iter().map(|spot| from_plot(spot.at)).fold(0.0, f64::max);
+        assert!((most - farthest).abs() < 1e-6, "{corners:?} {most}");
+        assert!(spots.iter().all(|spot| (border.distance_m(spot.at) - 5.0).abs() < 1e-6), "{corners:?}");
         let all = border.spots(band, 100.0, 0.5);
         assert!(all.len() > spots.len());
-        assert!(corners == CornerRule::Mitred || all.iter().all(|spot| border.is_in(band, spot.at)));
+        assert!(all.iter().all(|spot| border.is_in(band, spot.at)));
+        // what lies a little inside is put onto the line
+        let inside = corner(23.0, 13.5);
+        assert!((border.distance_m(border.onto(band, inside)) - 5.0).abs() < 1e-6, "{corners:?}");
     }
 }
 

@@ -22,7 +22,7 @@ const POINTS_TOGETHER: usize = 256;
 const MOST_ASKED: usize = 48;
 
 /// A side of the first triangles is this part of the side of a square as large as the area.
-const SIDES_ACROSS: f64 = 24.0;
+const SIDES_ACROSS: f64 = 16.0;
 /// Where every day of a year is summed the first triangles are larger, and there are fewer points.
 const SIDES_ACROSS_OF_SUMS: f64 = 10.0;
 

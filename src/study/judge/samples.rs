@@ -1,7 +1,8 @@
 //! An area as triangles with points at their corners, split where what is asked of it changes.
 //!
-//! Within a triangle a number is taken to change evenly from corner to corner. How wrong that is shows when it is split: the
-//! sum over its four parts is another one, and by as much the whole is known no better.
+//! A part of an area is bounded from both sides: all triangles whose corners keep the demand, and those of which some corners
+//! do; the middle between the two is told, and the half of what lies between as its error. A number is taken to change evenly
+//! from corner to corner: how wrong that is shows when a triangle is split, and the sum over its four parts is another one.
 
 use super::super::StudyError;
 use super::judging::Steps;
@@ -13,9 +14,6 @@ use std::collections::HashMap;
 
 /// Points are put so far within an area's border, metres: what stands at the border does not hold them.
 const INSIDE_M: f64 = 0.001;
-
-/// A leaf through which a border runs is known no better than to this part of it, though a split changed it less.
-const LEAST_ERROR: f64 = 1.0 / 16.0;
 
 /// A point of an area.
 #[derive(Clone, Copy, Debug)]
@@ -131,12 +129,15 @@ impl Samples {
     /// The sums as they are known now.
     pub(super) fn sums(&self, kinds: &[Summed]) -> AreaSums {
         let of = |number: usize| -> (f64, f64) {
+            let kind = kinds[number];
             let leaf = |leaf: &Leaf| {
                 let three = self.of_leaf(leaf.corners, number);
-                let changed = leaf.changed.get(number).copied().unwrap_or(0.0);
-                let floor = if is_open(kinds[number], three) { leaf.m2 * LEAST_ERROR } else { 0.0 };
-                let floor = if kinds[number] == Summed::Part { floor } else { 0.0 };
-                (leaf.m2 * part(kinds[number], three), changed.max(floor))
+                let error = match kind {
+                    _ if !is_open(kind, three) => 0.0,
+                    Summed::Part => leaf.m2 / 2.0,
+                    Summed::Number => leaf.changed.get(number).copied().unwrap_or(leaf.m2 * spread(three)),
+                };
+                (leaf.m2 * part(kind, three), error)
             };
             self.leaves.iter().map(leaf).fold((0.0, 0.0), |sum, of| (sum.0 + of.0, sum.1 + of.1))
         };
@@ -249,24 +250,21 @@ fn is_open(kind: Summed, three: [f64; 3]) -> bool {
 
 /// Whether the number would pass 0 if it changed once more as much as it does in the triangle.
 fn is_near(kind: Summed, three: [f64; 3]) -> bool {
-    let [low, high] =
-        [three.iter().copied().fold(f64::INFINITY, f64::min), three.iter().copied().fold(f64::NEG_INFINITY, f64::max)];
     let nearest = three.iter().map(|value| value.abs()).fold(f64::INFINITY, f64::min);
-    kind == Summed::Part && nearest <= high - low
+    kind == Summed::Part && nearest <= spread(three)
 }
 
-/// The part of a triangle in which a number that changes evenly is not below 0; or the number's mean.
+/// From the lowest to the highest of three.
+fn spread(three: [f64; 3]) -> f64 {
+    let [a, b, c] = three;
+    a.max(b).max(c) - a.min(b).min(c)
+}
+
+/// The part of a triangle in which a number is not below 0, where its corners tell, and else the half; or the number's mean.
 fn part(kind: Summed, three: [f64; 3]) -> f64 {
-    if kind == Summed::Number {
-        return three.iter().sum::<f64>() / 3.0;
-    }
-    let mut sorted = three;
-    sorted.sort_by(f64::total_cmp);
-    match sorted {
-        [low, ..] if low >= 0.0 => 1.0,
-        [.., high] if high < 0.0 => 0.0,
-        // one corner is kept
-        [low, middle, high] if middle < 0.0 => high * high / ((high - middle) * (high - low)),
-        [low, middle, high] => 1.0 - low * low / ((middle - low) * (high - low)),
+    match kind {
+        Summed::Number => three.iter().sum::<f64>() / 3.0,
+        Summed::Part if is_open(kind, three) => 0.5,
+        Summed::Part => f64::from(u8::from(three[0] >= 0.0)),
     }
 }
