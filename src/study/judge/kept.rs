@@ -28,7 +28,7 @@ pub struct KeptByRule {
 }
 
 /// From place to place on an area: so many to the side of a square as large, but no nearer than this, metres.
-const ACROSS: f64 = 16.0;
+const ACROSS: f64 = 8.0;
 const LEAST_M: f64 = 0.25;
 
 /// From place to place along lines around a plot, metres.
