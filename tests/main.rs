@@ -16,6 +16,7 @@ mod desktop;
 mod documents;
 mod doors;
 mod elevation;
+mod envelope;
 mod exact;
 mod export;
 mod far;

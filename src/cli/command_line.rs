@@ -4,6 +4,7 @@ use super::animate::AnimateArgs;
 use super::arguments::{CheckArgs, Common, ProfileArgs, ShadowArgs, SunArgs, VerifyArgs, VolumesArgs};
 use super::compare::CompareArgs;
 use super::convert::ConvertArgs;
+use super::envelope::EnvelopeArgs;
 use super::judge::JudgeArgs;
 use super::probe::ProbeArgs;
 use super::read_model::ReadModelArgs;
@@ -62,6 +63,9 @@ pub(super) enum Command {
     /// margin, the day and the point that decide, and who takes the sun. Exit status 0 passes, 1 does not (or is too close to
     /// say), 3 only reports
     Judge(JudgeArgs),
+    /// How high may be built on the site's plot, such that what a rule protects keeps its sun: heights as a GeoTIFF, a drawing
+    /// and a solid
+    Envelope(EnvelopeArgs),
     /// The built-in rules of authorities, with edition, source and options; or the text of one
     Rules(RulesArgs),
     /// Read a model for the program itself
@@ -85,6 +89,7 @@ impl Command {
             Command::Verify(asked) => &asked.common,
             Command::Probe(asked) => &asked.common,
             Command::Judge(asked) => &asked.common,
+            Command::Envelope(asked) => &asked.common,
         })
     }
 }

@@ -70,18 +70,18 @@ pub(super) fn judge(asked: &JudgeArgs) -> anyhow::Result<ExitCode> {
 }
 
 /// Where rules of the site's own stand.
-fn folder_of(site: &Path) -> &Path {
+pub(super) fn folder_of(site: &Path) -> &Path {
     if site.is_dir() { site } else { site.parent().unwrap_or(Path::new("")) }
 }
 
 /// The file that is read as the rule, if one is: it is no place for a table.
-fn rule_file(name: &str, folder: &Path) -> Option<PathBuf> {
+pub(super) fn rule_file(name: &str, folder: &Path) -> Option<PathBuf> {
     let path = folder.join(if name.ends_with(".toml") { name.to_owned() } else { format!("{name}.toml") });
     path.is_file().then_some(path)
 }
 
 /// `hours=2h` as a rule takes it.
-fn chosen(set: &[String]) -> Result<Vec<(&str, &str)>, WrongUse> {
+pub(super) fn chosen(set: &[String]) -> Result<Vec<(&str, &str)>, WrongUse> {
     let mut chosen: Vec<(&str, &str)> = Vec::new();
     for text in set {
         let (name, value) = text
@@ -96,7 +96,7 @@ fn chosen(set: &[String]) -> Result<Vec<(&str, &str)>, WrongUse> {
     Ok(chosen)
 }
 
-fn wrong_use(error: RuleError) -> WrongUse {
+pub(super) fn wrong_use(error: RuleError) -> WrongUse {
     let hint = match &error {
         RuleError::UnknownRule { .. } => "; gnomon rules lists them",
         RuleError::Unsaid { .. } => "; say each as --set NAME=VALUE",

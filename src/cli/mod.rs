@@ -12,6 +12,7 @@ mod commands;
 mod compare;
 mod convert;
 mod draw;
+mod envelope;
 mod eye;
 mod interrupt;
 mod judge;
@@ -102,6 +103,7 @@ fn run(command: &Command) -> anyhow::Result<ExitCode> {
     }
     let done = match command {
         Command::Judge(asked) => return judge::judge(asked),
+        Command::Envelope(asked) => envelope::envelope(asked),
         Command::Profile(asked) => profile::profile(asked),
         Command::Compare(asked) => compare::compare(asked),
         Command::Shadow(asked) => commands::shadow(asked),

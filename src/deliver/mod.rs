@@ -9,6 +9,7 @@ pub mod animation;
 pub mod comparison;
 pub mod conversion;
 pub mod disk;
+pub mod envelope;
 mod error;
 pub mod instant;
 pub mod judgement;

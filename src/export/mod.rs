@@ -7,6 +7,7 @@ pub mod check;
 pub mod checksum;
 pub mod comparison;
 mod contents;
+pub mod envelope;
 mod error;
 pub mod figure;
 pub mod file;

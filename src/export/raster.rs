@@ -1,5 +1,6 @@
 //! Rasters of numbers: the hours of shadow as a GeoTIFF, a mask as an 8-bit gray PNG.
 
+use super::envelope::EnvelopeMap;
 use super::file::{self, TemporaryFile};
 use super::{ExportError, check_size};
 use crate::profile::comparison::Comparison;
@@ -64,7 +65,7 @@ fn write_geotiff<S: ShadedCells>(
         let part = profile.shaded.part(cells);
         (0..part.len()).map(|cell| hours(part.of(cell))).collect()
     };
-    encode(grid, place, "hours of shadow", hours, to)
+    encode(grid, place, BandMeaning::hours("hours of shadow"), hours, to)
 }
 
 /// `shadow-hours-difference.tif`: as [`geotiff`], but the hours of shadow after minus those before; NaN where cells are
@@ -76,10 +77,37 @@ pub(crate) fn difference_geotiff(comparison: &Comparison, place: &Place) -> Resu
     let grid = comparison.grid();
     check_size("comparison", comparison.cells(), grid.width, grid.height)?;
     let hours = |cells: Range<usize>| cells.map(|cell| comparison.hours(cell)).collect();
-    let what = "hours of shadow, after minus before";
+    let what = BandMeaning::hours("hours of shadow, after minus before");
     let mut bytes = Cursor::new(Vec::new());
     encode(grid, place, what, hours, &mut bytes).map_err(|error| ExportError::encode("GeoTIFF", error))?;
     Ok(bytes.into_inner())
+}
+
+/// `envelope.tif`: as [`geotiff`], the greatest height that may be built, metres above the ground; NaN beside the plot.
+///
+/// # Errors
+/// As [`geotiff`].
+pub(crate) fn heights_geotiff(map: &EnvelopeMap) -> Result<Vec<u8>, ExportError> {
+    check_size("heights", map.heights.len(), map.grid.width, map.grid.height)?;
+    let heights = |cells: Range<usize>| map.heights[cells].to_vec();
+    let band = BandMeaning { what: "greatest height that may be built, above the ground", unit: "m" };
+    let mut bytes = Cursor::new(Vec::new());
+    encode(map.grid, map.place, band, heights, &mut bytes).map_err(|error| ExportError::encode("GeoTIFF", error))?;
+    Ok(bytes.into_inner())
+}
+
+/// What a band's numbers are.
+#[derive(Clone, Copy)]
+struct BandMeaning {
+    what: &'static str,
+    unit: &'static str,
+}
+
+impl BandMeaning {
+    /// Numbers of hours.
+    fn hours(what: &'static str) -> BandMeaning {
+        BandMeaning { what, unit: "h" }
+    }
 }
 
 /// GDAL's own tag for the meaning of a band.
@@ -92,7 +120,7 @@ const MOST_CLASSIC: u64 = 4_000_000_000;
 fn encode(
     grid: &Grid,
     place: &Place,
-    what: &str,
+    band: BandMeaning,
     hours: impl Fn(Range<usize>) -> Vec<f32> + Sync,
     to: &mut (impl Write + Seek),
 ) -> Result<(), TiffError> {
@@ -101,12 +129,12 @@ fn encode(
             let offsets: Vec<u32> = offsets.iter().map(|&at| u32::try_from(at)).collect::<Result<_, _>>()?;
             directory.write_tag(Tag::StripOffsets, &offsets[..])
         };
-        encode_as(TiffEncoder::new(to)?, grid, place, what, hours, offsets)
+        encode_as(TiffEncoder::new(to)?, grid, place, band, hours, offsets)
     } else {
         let offsets = |offsets: &[u64], directory: &mut DirectoryEncoder<'_, _, TiffKindBig>| {
             directory.write_tag(Tag::StripOffsets, offsets)
         };
-        encode_as(TiffEncoder::new_big(to)?, grid, place, what, hours, offsets)
+        encode_as(TiffEncoder::new_big(to)?, grid, place, band, hours, offsets)
     }
 }
 
@@ -115,7 +143,7 @@ fn encode_as<W: Write + Seek, K: TiffKind>(
     mut tiff: TiffEncoder<W, K>,
     grid: &Grid,
     place: &Place,
-    what: &str,
+    band: BandMeaning,
     hours: impl Fn(Range<usize>) -> Vec<f32> + Sync,
     write_offsets: impl FnOnce(&[u64], &mut DirectoryEncoder<'_, W, K>) -> Result<(), TiffError>,
 ) -> Result<(), TiffError> {
@@ -156,9 +184,10 @@ fn encode_as<W: Write + Seek, K: TiffKind>(
         Tag::Unknown(GDAL_METADATA),
         format!(
             "<GDALMetadata>\
-             <Item name=\"DESCRIPTION\" sample=\"0\" role=\"description\">{what}</Item>\
-             <Item name=\"UNITTYPE\" sample=\"0\" role=\"unittype\">h</Item>\
-             </GDALMetadata>"
+             <Item name=\"DESCRIPTION\" sample=\"0\" role=\"description\">{}</Item>\
+             <Item name=\"UNITTYPE\" sample=\"0\" role=\"unittype\">{}</Item>\
+             </GDALMetadata>",
+            band.what, band.unit
         )
         .as_str(),
     )?;

@@ -68,6 +68,20 @@ pub enum StudyError {
     NoDevice(String),
     /// All instants are at night.
     NoDay,
+    /// A rule that does not say how much sun must stay.
+    NoEnvelope {
+        /// Its id.
+        rule: String,
+        /// What it says instead.
+        why: String,
+    },
+    /// More rays would have to be kept free than can be asked.
+    TooManyRays {
+        /// Their number: a ray for each second and each point.
+        rays: i64,
+        /// How many there may be.
+        most: i64,
+    },
     /// The sun is the viewer, and it is below the horizon.
     NoSunToSee {
         /// The time.
@@ -173,8 +187,12 @@ fn no_device(why: &str) -> Message {
 impl StudyError {
     /// Whether the command line was wrong (exit status 2).
     pub fn is_wrong_use(&self) -> bool {
-        use StudyError::{Conflict, LittleMemory, Misfit, Rule, TooManyCells};
-        matches!(self, Conflict { .. } | Misfit(_) | LittleMemory { .. } | TooManyCells { .. } | Rule(_))
+        use StudyError::{Conflict, LittleMemory, Misfit, NoEnvelope, Rule, TooManyCells, TooManyRays};
+        match self {
+            Conflict { .. } | Misfit(_) | LittleMemory { .. } | TooManyCells { .. } | Rule(_) => true,
+            NoEnvelope { .. } | TooManyRays { .. } => true,
+            _ => false,
+        }
     }
 
     /// The failure of a graphics device during the work, if that is the error. Another device could do the work.
@@ -185,6 +203,31 @@ impl StudyError {
         }
         .filter(|error| matches!(error, GpuError::Lost { .. }))
     }
+}
+
+fn no_envelope(rule: &str, why: &str) -> Message {
+    message![
+        format!("{rule}: {why}, so it does not say how high may be built");
+        "take a rule that says how much sun must stay"
+    ]
+}
+
+fn too_many_rays(rays: i64, most: i64) -> Message {
+    message![
+        format!("{rays} seconds of sun, counted for each point, are more than {most}");
+        "ask for fewer days, or less of the site"
+    ]
+}
+
+fn no_sun_to_see(time: &DateTime<Zone>, below_deg: f64) -> Message {
+    message![
+        Field::View,
+        format!(
+            ": no sun sees the site at {}: it is {below_deg:.1}° below the horizon",
+            time.format("%Y-%m-%d %H:%M")
+        );
+        "take times of day, or look from elsewhere"
+    ]
 }
 
 /// An amount of memory as a budget is written, rounded up.

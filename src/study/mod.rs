@@ -12,6 +12,8 @@ pub mod again;
 mod chooser;
 mod compare;
 mod daylight;
+#[doc(hidden)]
+pub mod envelope;
 mod error;
 mod event;
 mod fingerprint;
@@ -28,6 +30,8 @@ mod openness;
 mod outcome;
 mod patch_sum;
 mod patches;
+#[doc(hidden)]
+pub mod plot_cells;
 #[doc(hidden)]
 pub mod probe;
 mod profile;

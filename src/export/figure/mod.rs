@@ -28,7 +28,7 @@ pub use context::FigureContext;
 pub use counted::{Colours, Diagram};
 pub use difference::{ChangeBands, ChangeColours, difference};
 pub use fonts::{runs, without_face};
-pub use lines::{LineDrawing, MOST_OUTLINES, Outline, iso_hours, outlines};
+pub use lines::{LineDrawing, MOST_OUTLINES, Outline, heights, iso_hours, outlines};
 pub use lines::{SkyContext, card_picture, sky_card, sky_colours, sky_pictures, sky_sheet};
 pub use panel::ScaleBar;
 pub use paper::{HEIGHT, WIDTH};

@@ -8,4 +8,6 @@ mod table;
 
 pub use csv::csv;
 pub use json::json;
+pub(super) use numbers::CHECK;
+pub(super) use rule_report::{RuleReport, SettledReport, rule_report, settled_report};
 pub use table::table;

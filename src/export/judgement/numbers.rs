@@ -7,7 +7,7 @@ use crate::sun::{Place, Zone};
 use chrono::{DateTime, NaiveDate, TimeZone};
 
 /// What is said beside every verdict.
-pub(super) const CHECK: &str =
+pub(in crate::export) const CHECK: &str =
     "Nothing here is legal advice: check with your authority which rule, edition and values hold.";
 
 /// Why a number that misses its limit is taken all the same.

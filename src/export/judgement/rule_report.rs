@@ -7,7 +7,7 @@ use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
 #[derive(Serialize)]
-pub(super) struct RuleReport<'a> {
+pub(in crate::export) struct RuleReport<'a> {
     id: &'a str,
     name: &'a str,
     region: &'a str,
@@ -21,7 +21,7 @@ pub(super) struct RuleReport<'a> {
 
 /// What is chosen of a rule.
 #[derive(Serialize)]
-pub(super) struct SettledReport<'a> {
+pub(in crate::export) struct SettledReport<'a> {
     #[serde(serialize_with = "options")]
     options: &'a [(String, OptionValue)],
     clock: ClockReport,
@@ -90,7 +90,7 @@ fn options<S: Serializer>(chosen: &&[(String, OptionValue)], serializer: S) -> R
     map.end()
 }
 
-pub(super) fn rule_report(source: &RuleSource) -> RuleReport<'_> {
+pub(in crate::export) fn rule_report(source: &RuleSource) -> RuleReport<'_> {
     RuleReport {
         id: &source.id,
         name: &source.name,
@@ -114,7 +114,7 @@ pub(super) fn clock_word(clock: RuleClock) -> &'static str {
     }
 }
 
-pub(super) fn settled_report(rule: &ResolvedRule) -> SettledReport<'_> {
+pub(in crate::export) fn settled_report(rule: &ResolvedRule) -> SettledReport<'_> {
     let offset = if let RuleClock::Fixed(offset) = rule.clock.clock { Some(offset.to_string()) } else { None };
     let (rooms_needed, floor_area_needed) = match &rule.dwelling {
         Some(DwellingShare::Rooms(lines)) => (Some(lines.iter().map(|line| [line.from, line.needed]).collect()), None),

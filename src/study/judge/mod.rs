@@ -11,6 +11,8 @@ mod days;
 mod facades;
 mod groups;
 mod judging;
+mod kept;
+mod kept_demand;
 mod needs;
 mod point_light;
 mod receivers;
@@ -21,3 +23,4 @@ mod whole;
 mod windows;
 
 pub use asking::judge;
+pub use kept::{KeptByRule, kept_by};

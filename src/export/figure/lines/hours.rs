@@ -84,7 +84,7 @@ pub fn iso_hours<S: SurfaceRows>(scene: &FigureContext<S>, profile: &Profile) ->
         lines.iter().flat_map(|(_, lines)| lines.all()).for_each(|line| labels.avoid(line));
         base.footprints(scale).iter().for_each(|line| labels.avoid(line));
         for (secs, lines) in &lines {
-            label(&mut labels, &said(*secs), lines);
+            label(&mut labels, (&said(*secs), LINE), lines);
         }
         labels.draw(&mut block);
         block
@@ -93,7 +93,7 @@ pub fn iso_hours<S: SurfaceRows>(scene: &FigureContext<S>, profile: &Profile) ->
 }
 
 /// Labels each line that is long enough with its hours, repeatedly. If no line is, one label stands beside the longest.
-fn label(labels: &mut Labels, said: &str, lines: &LineGroup) {
+pub(super) fn label(labels: &mut Labels, (said, colour): (&str, Rgb), lines: &LineGroup) {
     /// The gap between a line and a label beside it, pixels.
     const BESIDE: f64 = 10.0;
     let half = labels.half(said);
@@ -106,7 +106,7 @@ fn label(labels: &mut Labels, said: &str, lines: &LineGroup) {
         let parts = (length / PART).ceil().max(1.0);
         for part in 0..parts as usize {
             let ends = [part as f64, part as f64 + 1.0].map(|at| at * length / parts);
-            is_placed |= labels.place(said, LINE, &mut labels::along(line, ends, 2.0 * half[0]));
+            is_placed |= labels.place(said, colour, &mut labels::along(line, ends, 2.0 * half[0]));
         }
     }
     let longest = lines.all().max_by(|a, b| length(a).total_cmp(&length(b)));
@@ -119,7 +119,7 @@ fn label(labels: &mut Labels, said: &str, lines: &LineGroup) {
                 cost: 0.0,
             })
         };
-        labels.place(said, LINE, &mut line.iter().flat_map(beside).collect::<Vec<_>>());
+        labels.place(said, colour, &mut line.iter().flat_map(beside).collect::<Vec<_>>());
     }
 }
 

@@ -4,11 +4,13 @@
 //! cells.
 
 mod base;
+mod heights;
 mod hours;
 mod labels;
 mod outlines;
 mod sky;
 
+pub use heights::heights;
 pub use hours::iso_hours;
 pub use outlines::{MOST_OUTLINES, Outline, outlines};
 pub use sky::{SkyContext, card_picture, sky_card, sky_colours, sky_pictures, sky_sheet};

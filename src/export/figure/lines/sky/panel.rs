@@ -114,7 +114,7 @@ fn keys(shown: &SkyContext) -> Vec<(Rgb, String)> {
     let days = if shown.ways.len() == 1 { "the sun’s way of the day" } else { "the sun’s ways of the days" };
     vec![
         (SHADED, days.to_owned()),
-        (WAY, format!("the 21st of each month of {year}; from July on dashed")),
+        (WAY, format!("each 21st in {year}, from July on dashed")),
         (CLOCK, "hours of the clock".to_owned()),
         (SUNDIAL, "hours of true solar time (XII: noon)".to_owned()),
     ]

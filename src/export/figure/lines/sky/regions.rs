@@ -20,11 +20,11 @@ pub(super) struct SkyRegion {
 impl SkyRegion {
     pub(super) fn draw(&self, block: &mut Block) {
         /// How much of the line's colour an outline has.
-        const OUTLINE: f64 = 0.6;
+        const OUTLINE: f64 = 0.4;
         let outline = mix(self.colour, LOOK.line, OUTLINE);
         // the fill's own colour would leave a seam between neighbours
         block.push(format_args!(
-            "<path d=\"{}\" fill=\"{}\" fill-rule=\"evenodd\" stroke=\"{}\" stroke-width=\"2\" stroke-linejoin=\"round\"/>",
+            "<path d=\"{}\" fill=\"{}\" fill-rule=\"evenodd\" stroke=\"{}\" stroke-width=\"1.2\" stroke-linejoin=\"round\"/>",
             self.data,
             hex(self.colour),
             hex(outline),

@@ -1,0 +1,55 @@
+//! How high may be built on a plot: what all files of an envelope are made of.
+
+use crate::site::Ground;
+use crate::sun::Place;
+use crate::view::Grid;
+use glam::{DVec2, DVec3};
+
+/// The heights on a plot, and what they keep free.
+#[derive(Clone, Copy, Debug)]
+pub struct EnvelopeMap<'a> {
+    /// The place on Earth.
+    pub place: &'a Place,
+    /// The ground, from whose level heights count.
+    pub ground: &'a Ground,
+    /// The cells.
+    pub grid: &'a Grid,
+    /// For each cell the greatest height, metres above the ground's level; NaN beside the plot. Row 0 is north.
+    pub heights: &'a [f32],
+    /// The height where no ray is in the way, metres: no building is asked to be higher.
+    pub cap_m: f32,
+    /// The plot's border.
+    pub border: &'a [DVec2],
+    /// For each cell, whether a building stands there.
+    pub buildings: &'a [bool],
+    /// The points whose sun is kept.
+    pub points: &'a [DVec3],
+    /// What is kept, in a line: the rule or the hours.
+    pub kept: &'a str,
+    /// The days whose sun is kept, in a line.
+    pub days: &'a str,
+    /// Whether directions include refraction.
+    pub refraction: bool,
+}
+
+impl EnvelopeMap<'_> {
+    /// The height of a cell; none beside the plot.
+    pub fn height(&self, cell: usize) -> Option<f32> {
+        self.heights.get(cell).copied().filter(|height| !height.is_nan())
+    }
+
+    /// Cubic metres below the heights.
+    pub fn volume_m3(&self) -> f64 {
+        let heights = (0..self.heights.len()).filter_map(|cell| self.height(cell));
+        heights.map(f64::from).sum::<f64>() * self.grid.cell * self.grid.cell
+    }
+
+    /// The least and the greatest height; none of a plot without cells.
+    pub fn range(&self) -> Option<[f32; 2]> {
+        let heights = (0..self.heights.len()).filter_map(|cell| self.height(cell));
+        heights.fold(None, |range, height| match range {
+            None => Some([height; 2]),
+            Some([low, high]) => Some([low.min(height), high.max(height)]),
+        })
+    }
+}

@@ -1,0 +1,9 @@
+//! How high may be built on a plot: heights as a raster, a drawing with contours, and a solid.
+
+mod map;
+mod report;
+mod solid;
+
+pub use map::EnvelopeMap;
+pub use report::{EnvelopeTold, KeptReceiver, KeptSpot, json, table};
+pub use solid::EnvelopeSolid;

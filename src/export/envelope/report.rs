@@ -1,0 +1,228 @@
+//! What is said of an envelope: a table for people, and the JSON.
+
+use super::map::EnvelopeMap;
+use crate::export::judgement::{CHECK, RuleReport, SettledReport, rule_report, settled_report};
+use crate::export::names::plain;
+use crate::export::report::{self, GroundReport, PlaceReport, ground_report, place_report, stamp, tz_version};
+use crate::export::{ExportError, probe};
+use crate::message::{Message, Words};
+use crate::rules::{ResolvedRule, RuleDay, RuleSource, Spell, total_secs};
+use crate::sun::{Place, Zone};
+use chrono::{DateTime, TimeZone};
+use glam::DVec3;
+use serde::Serialize;
+use std::fmt::Write;
+use std::path::PathBuf;
+
+/// What keeps its sun, as it is told.
+#[derive(Clone, Debug)]
+pub struct KeptReceiver {
+    /// Its name.
+    pub name: String,
+    /// Metres above the ground's level of its lowest ray over the plot; none where no ray passes over it.
+    pub lowest_m: Option<f64>,
+    /// Whether it has less sun than it must, and so keeps all that it has.
+    pub lacks: bool,
+    /// Its places that are kept.
+    pub places: Vec<KeptSpot>,
+}
+
+/// A place that keeps its sun.
+#[derive(Clone, Debug)]
+pub struct KeptSpot {
+    /// Where it is judged; lit where all of these are.
+    pub points: Vec<DVec3>,
+    /// For each of its days the day's number and when the sun stays.
+    pub days: Vec<(usize, Vec<Spell>)>,
+}
+
+/// All that is said of an envelope.
+#[derive(Clone, Copy, Debug)]
+pub struct EnvelopeTold<'a> {
+    /// The heights.
+    pub map: &'a EnvelopeMap<'a>,
+    /// Where the rule is from.
+    pub source: &'a RuleSource,
+    /// The rule.
+    pub rule: &'a ResolvedRule,
+    /// Its days.
+    pub days: &'a [RuleDay],
+    /// What is kept.
+    pub kept: &'a [KeptReceiver],
+    /// The files.
+    pub files: &'a [PathBuf],
+}
+
+#[derive(Serialize)]
+struct EnvelopeReport<'a> {
+    gnomon: &'static str,
+    place: PlaceReport<'a>,
+    tz_version: String,
+    #[serde(flatten)]
+    ground: GroundReport,
+    refraction: bool,
+    rule: RuleReport<'a>,
+    check_with_your_authority: &'static str,
+    #[serde(flatten)]
+    settled: SettledReport<'a>,
+    region: [f64; 4],
+    cell: f64,
+    width: u32,
+    height: u32,
+    highest_m: f32,
+    least_m: Option<f32>,
+    greatest_m: Option<f32>,
+    volume_m3: f64,
+    kept: Vec<KeptReport<'a>>,
+    files: Vec<String>,
+    notes: Vec<String>,
+}
+
+#[derive(Serialize)]
+struct KeptReport<'a> {
+    name: &'a str,
+    lowest_m: Option<f64>,
+    lacks: bool,
+    places: Vec<PlacesReport>,
+}
+
+#[derive(Serialize)]
+struct PlacesReport {
+    points: Vec<[f64; 3]>,
+    days: Vec<KeptDayReport>,
+}
+
+#[derive(Serialize)]
+struct KeptDayReport {
+    date: String,
+    seconds: i64,
+    spells: Vec<[String; 2]>,
+}
+
+/// The JSON: the rule as `judge` has it, the raster of the heights (`region`, `cell`, `width`, `height`), `highest_m`, which
+/// nothing exceeds, the `least_m` and `greatest_m` height and the `volume_m3` below them, and for everything that is `kept`
+/// its lowest ray above the ground (`lowest_m`, null where none passes over the plot), whether it `lacks` sun, and at each
+/// of its places when the sun stays.
+///
+/// # Errors
+/// [`ExportError::Encode`] where the encoder refuses.
+pub fn json(told: &EnvelopeTold, (notes, words): (&[Message], &dyn Words)) -> Result<String, ExportError> {
+    let EnvelopeTold { map, source, rule, .. } = *told;
+    let day = |(number, spells): &(usize, Vec<Spell>)| KeptDayReport {
+        date: told.days[*number].date.to_string(),
+        seconds: total_secs(spells),
+        spells: spells.iter().map(|of| [of.start, of.end].map(|secs| stamp(&time(map.place, secs)))).collect(),
+    };
+    let place = |spot: &KeptSpot| PlacesReport {
+        points: spot.points.iter().map(DVec3::to_array).collect(),
+        days: spot.days.iter().map(day).collect(),
+    };
+    let range = map.range();
+    report::json(&EnvelopeReport {
+        gnomon: env!("CARGO_PKG_VERSION"),
+        place: place_report(map.place),
+        tz_version: tz_version(map.place),
+        ground: ground_report(map.ground),
+        refraction: map.refraction,
+        rule: rule_report(source),
+        check_with_your_authority: CHECK,
+        settled: settled_report(rule),
+        region: map.grid.region(),
+        cell: map.grid.cell,
+        width: map.grid.width,
+        height: map.grid.height,
+        highest_m: map.cap_m,
+        least_m: range.map(|[low, _]| low),
+        greatest_m: range.map(|[_, high]| high),
+        volume_m3: map.volume_m3(),
+        kept: told
+            .kept
+            .iter()
+            .map(|of| KeptReport {
+                name: &of.name,
+                lowest_m: of.lowest_m,
+                lacks: of.lacks,
+                places: of.places.iter().map(place).collect(),
+            })
+            .collect(),
+        files: told.files.iter().map(|file| file.display().to_string()).collect(),
+        notes: report::said(notes, words),
+    })
+}
+
+/// Of more things the names are not listed.
+const MOST_LINES: usize = 40;
+
+/// The files, the heights, what is kept and when, and what that rests on. Ends with a line break.
+pub fn table(told: &EnvelopeTold) -> String {
+    let EnvelopeTold { map, source, .. } = *told;
+    let mut text: String = told.files.iter().map(|file| format!("{}\n", file.display())).collect();
+    // Writing to a String cannot fail.
+    let _ = match map.range() {
+        Some([low, high]) => writeln!(
+            text,
+            "\nfrom {low:.2} m to {high:.2} m above the ground, {:.0} m³ in all; {:.2} m at most where no sun is in the way",
+            map.volume_m3(),
+            map.cap_m
+        ),
+        None => writeln!(text, "\nthe plot has no cell: take smaller ones"),
+    };
+    let width = told.kept.iter().map(|of| plain(&of.name).chars().count()).fold(8, usize::max).min(40);
+    let _ = writeln!(text, "\n  {:<width$}  {:>10}  sun that stays", "keeps", "lowest ray");
+    for of in told.kept.iter().take(MOST_LINES) {
+        let lowest = of.lowest_m.map_or_else(|| "-".to_owned(), |lowest| format!("{lowest:.2} m"));
+        let _ = writeln!(text, "  {:<width$}  {lowest:>10}  {}", plain(&of.name), stays(told, of));
+    }
+    if told.kept.len() > MOST_LINES {
+        let _ = writeln!(text, "  and {} more; the JSON has all", told.kept.len() - MOST_LINES);
+    }
+    let _ = writeln!(
+        text,
+        "\nrule: {}, {} ({}), known as {}: {}\n{CHECK}",
+        source.name,
+        source.region,
+        source.edition,
+        source.confidence,
+        source.confidence.meaning()
+    );
+    for assumed in &source.assumes {
+        let _ = writeln!(text, "assumes: {assumed}");
+    }
+    for (name, value) in &told.rule.chosen {
+        let _ = writeln!(text, "chosen: {name} = {}", value.text());
+    }
+    let refraction = if map.refraction { "with refraction" } else { "without refraction" };
+    let _ = writeln!(
+        text,
+        "ground at {}; {refraction}; clock: {}, tz {}",
+        map.ground.said(),
+        map.place.time_zone,
+        map.place.time_zone.version()
+    );
+    text
+}
+
+/// When the sun of a thing stays: of a single place on a single day its spells, else how much.
+fn stays(told: &EnvelopeTold, of: &KeptReceiver) -> String {
+    let lacks = if of.lacks { "; less than the rule asks: all of it is kept" } else { "" };
+    let clock = |secs: i64| time(told.map.place, secs).format("%H:%M:%S").to_string();
+    match of.places.as_slice() {
+        [KeptSpot { days, .. }] => match days.as_slice() {
+            [(day, spells)] => {
+                let said: Vec<_> = spells.iter().map(|it| format!("{} – {}", clock(it.start), clock(it.end))).collect();
+                format!("{}: {}{lacks}", told.days[*day].date, said.join(", "))
+            }
+            days => format!("{} days{lacks}", days.len()),
+        },
+        places => {
+            let secs = places.iter().flat_map(|place| &place.days).map(|(_, spells)| total_secs(spells)).max();
+            format!("{} places, each at most {}{lacks}", places.len(), probe::clock(secs.unwrap_or(0)))
+        }
+    }
+}
+
+fn time(place: &Place, secs: i64) -> DateTime<Zone> {
+    // a day's windows lie within the years that chrono knows
+    let utc = DateTime::from_timestamp(secs, 0).unwrap_or_default().naive_utc();
+    place.time_zone.from_utc_datetime(&utc)
+}

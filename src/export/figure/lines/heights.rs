@@ -1,0 +1,150 @@
+//! Lines of equal height of an envelope: how high may be built on a plot.
+
+use super::hours::label;
+use super::labels::Labels;
+use super::{LineDrawing, LineGroup, Scale, fill, group, paths, stroke};
+use crate::contour::{Contour, ScalarField, contours};
+use crate::export::check_size;
+use crate::export::envelope::EnvelopeMap;
+use crate::export::figure::panel::Panel;
+use crate::export::figure::picture::Fit;
+use crate::export::figure::scale::{Rgb, mix};
+use crate::export::figure::svg::{ACCENT, Block, INK, LetterStyle};
+use crate::export::figure::text::{self, FontWeight};
+use crate::export::figure::{self, words};
+use crate::export::{ExportError, report};
+
+/// The colours of the ground, of buildings, of the lowest and of the greatest height, and of lines.
+const GROUND: Rgb = [253, 251, 246];
+const BUILDING: Rgb = [206, 200, 188];
+const LOW: Rgb = [252, 233, 196];
+const HIGH: Rgb = [96, 132, 172];
+const LINE: Rgb = [58, 66, 84];
+const LABEL: LetterStyle = LetterStyle { size: 27.0, weight: FontWeight::Bold, colour: LINE };
+const WIDTH: f64 = 2.6;
+const APART: f64 = 240.0;
+/// The most lines; more could not be told apart.
+const MOST_LINES: f64 = 16.0;
+
+/// `envelope`: a labelled line for each whole step of height, on a plan of the plot.
+///
+/// # Errors
+/// [`ExportError::Size`] where heights or buildings do not fill the grid.
+pub fn heights(map: &EnvelopeMap) -> Result<LineDrawing, ExportError> {
+    let grid = map.grid;
+    check_size("heights", map.heights.len(), grid.width, grid.height)?;
+    check_size("buildings", map.buildings.len(), grid.width, grid.height)?;
+    let range = map.range().unwrap_or_default();
+    let step_mm = step_mm(range);
+    let first = (f64::from(range[0]) * 1000.0 / step_mm as f64).floor().max(0.0) as u64;
+    let last = (f64::from(range[1]) * 1000.0 / step_mm as f64).ceil().max(0.0) as u64;
+    let is_plot = |cell: usize| map.height(cell).is_some();
+    // a millimetre more than the height, so that what is as high as a line lies above it
+    let value = |cell: usize| map.height(cell).map_or(0, |height| (f64::from(height).max(0.0) * 1000.0) as u64 + 1);
+    let open = |one: usize, other: usize| is_plot(one) && is_plot(other);
+    let field = ScalarField { width: grid.width, height: grid.height, value: &value, open: &open };
+    let bands: Vec<(u64, Vec<Contour>)> =
+        (first..last.max(first + 1)).map(|step| (step * step_mm, contours(&field, step * step_mm))).collect();
+    let draw = |fit: Fit| sheet(map, &bands, step_mm, fit);
+    let panel = panel(map, &bands, step_mm, range);
+    Ok(LineDrawing::new(&panel, (grid.width, grid.height), grid.cell, draw))
+}
+
+/// From line to line, millimetres: a round length of which there are few enough.
+fn step_mm([low, high]: [f32; 2]) -> u64 {
+    const STEPS: [u64; 9] = [100, 200, 500, 1000, 2000, 5000, 10_000, 20_000, 50_000];
+    let all = f64::from(high - low) * 1000.0;
+    STEPS.into_iter().find(|step| all / *step as f64 <= MOST_LINES).unwrap_or(100_000)
+}
+
+/// The colour of a band among so many.
+fn tone(band: usize, count: usize) -> Rgb {
+    mix(LOW, HIGH, if count > 1 { band as f64 / (count - 1) as f64 } else { 0.5 })
+}
+
+fn sheet(map: &EnvelopeMap, bands: &[(u64, Vec<Contour>)], step_mm: u64, fit: Fit) -> Block {
+    let scale = Scale::of(fit);
+    let mut block = Block::default();
+    group(&mut block, "ground", |block| {
+        block.fill([0.0, 0.0, f64::from(fit.pixels.0), f64::from(fit.pixels.1)], GROUND);
+    });
+    group(&mut block, "heights", |block| {
+        for (at, (_, contours)) in bands.iter().enumerate() {
+            fill(block, &scale.areas(contours), tone(at, bands.len()), 1.0);
+        }
+    });
+    let value = |cell: usize| u64::from(map.buildings[cell]);
+    let field = ScalarField { width: map.grid.width, height: map.grid.height, value: &value, open: &|_, _| true };
+    let buildings = contours(&field, 0);
+    group(&mut block, "buildings", |block| {
+        fill(block, &scale.areas(&buildings), BUILDING, 0.55);
+        scale.lines(&buildings).draw(block, 2.0, INK, "");
+    });
+    let lines: Vec<(String, LineGroup)> =
+        bands.iter().map(|(from_mm, contours)| (said(*from_mm, step_mm), scale.lines(contours))).collect();
+    group(&mut block, "lines", |block| {
+        lines.iter().for_each(|(said, lines)| lines.draw(block, WIDTH, LINE, said));
+    });
+    let on_page =
+        |x: f64, y: f64| scale.point([(x - map.grid.west) / map.grid.cell, (map.grid.north - y) / map.grid.cell]);
+    group(&mut block, "plot", |block| {
+        let corners = map.border.iter().chain(map.border.first());
+        let border = corners.map(|at| on_page(at.x, at.y)).collect();
+        stroke(block, &paths(&[border]), 6.0, ACCENT, "the plot");
+    });
+    group(&mut block, "points", |block| {
+        for point in map.points {
+            let [x, y] = on_page(point.x, point.y);
+            block.ring(x, y, 8.0, 4.0, INK);
+        }
+    });
+    let mut labels = Labels::new(fit.pixels, LABEL, APART);
+    lines.iter().flat_map(|(_, lines)| lines.all()).for_each(|line| labels.avoid(line));
+    for (said, lines) in &lines {
+        label(&mut labels, (said, LINE), lines);
+    }
+    labels.draw(&mut block);
+    block
+}
+
+fn panel(map: &EnvelopeMap, bands: &[(u64, Vec<Contour>)], step_mm: u64, [low, high]: [f32; 2]) -> Panel {
+    let place = map.place;
+    let name = text::clean(&place.name);
+    let mut facts = vec![("Keeps", map.kept.to_owned()), ("Days", map.days.to_owned())];
+    if !name.is_empty() {
+        facts.push(("Place", words::coordinates(place)));
+    }
+    facts.push(("Ground", words::ground(map.ground)));
+    facts.push(("Cells", figure::cells(map.grid.width, map.grid.height, map.grid.cell)));
+    facts.push(("Points", map.points.len().to_string()));
+    facts.push(("Heights", format!("{} to {}", words::metres(low.into()), words::metres(high.into()))));
+    facts.push(("Below", format!("{} m³", figure::panel::thousands(map.volume_m3()))));
+    facts.push(("Refraction", words::refraction(map.refraction, place)));
+    let legend = bands.iter().enumerate().map(|(at, (from_mm, _))| {
+        let to = said(from_mm + step_mm, step_mm);
+        (tone(at, bands.len()), format!("{} to {to}", said(*from_mm, step_mm)))
+    });
+    let mut legend: Vec<(Rgb, String)> = legend.collect();
+    legend.push((BUILDING, "buildings".to_owned()));
+    Panel {
+        kicker: "How high may be built".to_owned(),
+        title: if name.is_empty() { words::coordinates(place) } else { name },
+        lead: vec![format!("at most {} where no sun is in the way", words::metres(map.cap_m.into()))],
+        facts,
+        sun: Vec::new(),
+        legend_head: "Metres above the ground".to_owned(),
+        legend,
+        keys: vec![
+            (LINE, "lines of equal height".to_owned()),
+            (ACCENT, "the plot".to_owned()),
+            (INK, "points whose sun is kept (rings)".to_owned()),
+        ],
+        tz: report::tz_version(place),
+        north_up: true,
+    }
+}
+
+/// `12 m`, `12.5 m`.
+fn said(mm: u64, step_mm: u64) -> String {
+    if step_mm < 1000 { format!("{:.1} m", mm as f64 / 1000.0) } else { format!("{} m", mm / 1000) }
+}

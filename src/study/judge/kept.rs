@@ -1,0 +1,234 @@
+//! What a rule says must keep its sun: the places of each receiver, and how much of which sun.
+
+use super::super::envelope::{DaysNeeded, KeptPlace, KeptThing, SunNeeded};
+use super::super::{OnEvent, StudyError, note_models};
+use super::area_light::{AreaPlace, reach_of};
+use super::days::{JudgedDays, hulls};
+use super::judging::{BothStates, Judging, Steps};
+use super::kept_demand::{RuleDemand, days_needed, needed_weight};
+use super::needs;
+use super::point_light::PointLight;
+use super::samples::AreaSpot;
+use super::windows::{WindowLight, windows};
+use crate::judgement::{DeemedBorder, PartTriangle, triangles, triangles_of_faces};
+use crate::rules::{Band, HeightOver, ResolvedRule, RuleDay, RuleReceiver};
+use crate::shadow::JUDGED_ABOVE_M;
+use crate::site::{AreaSurface, JudgedArea, JudgedPlot, JudgedSite, JudgedWindow};
+use glam::DVec3;
+use rayon::prelude::*;
+
+/// What must keep its sun, and on which days.
+pub struct KeptByRule {
+    /// Each receiver.
+    pub things: Vec<KeptThing>,
+    /// On which of the days.
+    pub needed: DaysNeeded,
+    /// The rule's days.
+    pub days: Vec<RuleDay>,
+}
+
+/// From place to place on an area: so many to the side of a square as large, but no nearer than this, metres.
+const ACROSS: f64 = 8.0;
+const LEAST_M: f64 = 0.25;
+
+/// From place to place along lines around a plot, metres.
+const SPACING_M: f64 = 2.0;
+
+/// Nobody looks for shadow farther out than this, metres, nor that of a lower sun, degrees.
+const FARTHEST_M: f64 = 2000.0;
+const LOWEST_DEG: f64 = 0.5;
+
+/// So many places are searched between two looks at the listener.
+const TOGETHER: usize = 64;
+
+/// What a rule protects on a site. Around the plot itself that is as far as something `highest_m` high throws its shadow.
+///
+/// # Errors
+/// [`StudyError`]; [`StudyError::NoEnvelope`] for rules that do not say how much sun must stay.
+pub fn kept_by(
+    site: &JudgedSite,
+    rule: &ResolvedRule,
+    highest_m: f64,
+    on_event: &mut OnEvent<'_>,
+) -> Result<KeptByRule, StudyError> {
+    note_models(&site.notes, on_event)?;
+    needs::check(rule, site)?;
+    let needed = days_needed(rule)?;
+    let calendar = rule.calendar(&site.place, site.year)?;
+    let hulls = hulls(&site.place, &calendar)?;
+    let days = JudgedDays::new(site, rule.cuts, &calendar, &hulls)?;
+    let judging = Judging { site, rule, days: &days, before: None };
+    let Some(first) = hulls.first() else { return Err(StudyError::NoDay) };
+    let mut steps = Steps::new(on_event, judging.count(), first.from)?;
+    let things = match &rule.receiver {
+        RuleReceiver::Window { .. } => of_windows(&judging, &mut steps)?,
+        RuleReceiver::Facade => of_facades(&judging, &mut steps)?,
+        RuleReceiver::Area { .. } => of_areas(&judging, needed, &mut steps)?,
+        RuleReceiver::Lines { .. } => of_lines(&judging, highest_m, &mut steps)?,
+    };
+    Ok(KeptByRule { things, needed, days: calendar })
+}
+
+/// A place, by its light.
+fn place(
+    judging: &Judging<'_>,
+    demand: &RuleDemand,
+    (weight, points): (f64, Vec<DVec3>),
+    light: &PointLight,
+) -> Result<KeptPlace, StudyError> {
+    let of_day = |(day, at): (&RuleDay, usize)| -> Result<SunNeeded, StudyError> {
+        demand.on(judging.rule, day, &light.open[at], &light.now[at])
+    };
+    let days = judging.days.days.iter().zip(0..).map(of_day).collect::<Result<_, _>>()?;
+    Ok(KeptPlace { weight, points, days })
+}
+
+/// A thing of which all places must keep their sun.
+fn whole(name: String, places: Vec<KeptPlace>) -> KeptThing {
+    let needed = places.iter().map(|place| place.weight).sum();
+    KeptThing { name, places, needed }
+}
+
+fn of_windows(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<Vec<KeptThing>, StudyError> {
+    let demand = RuleDemand::of(judging.rule, None)?;
+    let lights = windows(judging, steps)?;
+    let of = |(window, found): (&JudgedWindow, &WindowLight)| {
+        let before = if found.spot.through.is_some() { DVec3::ZERO } else { window.outward * JUDGED_ABOVE_M };
+        let points = found.spot.points.iter().map(|point| point + before).collect();
+        Ok(whole(window.name.clone(), vec![place(judging, &demand, (1.0, points), &found.light)?]))
+    };
+    judging.site.windows.iter().zip(&lights).map(of).collect()
+}
+
+fn of_facades(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<Vec<KeptThing>, StudyError> {
+    let demand = RuleDemand::of(judging.rule, None)?;
+    let all: Vec<DVec3> = judging.site.facades.iter().flat_map(|facade| &facade.points).map(|[at, _]| *at).collect();
+    let states = judging.states(&all);
+    let mut things = Vec::new();
+    for facade in &judging.site.facades {
+        let of = |[at, normal]: &[DVec3; 2]| -> Result<_, StudyError> {
+            let (judged, open) = (states.now.in_plane(*at, *normal), judging.days.open(Some(*normal)));
+            let now = states.now.lit(&judged, judging.days, &open)?;
+            place(judging, &demand, (1.0, vec![judged.point]), &PointLight { open, now, before: None })
+        };
+        let places = in_steps(&facade.points, steps, of)?;
+        things.push(whole(facade.name.clone(), places));
+        steps.done(1)?;
+    }
+    Ok(things)
+}
+
+fn of_areas(
+    judging: &Judging<'_>,
+    needed: DaysNeeded,
+    steps: &mut Steps<'_, '_>,
+) -> Result<Vec<KeptThing>, StudyError> {
+    let demand = RuleDemand::of(judging.rule, None)?;
+    let site = judging.site;
+    let states = judging.states(&reach_of(&site.areas, &[&site.now]));
+    let mut things = Vec::new();
+    for area in &site.areas {
+        let places = of_area(judging, (&demand, &states), area, steps)?;
+        let weight = needed_weight(judging.rule, &demand, &places, needed);
+        things.push(KeptThing { name: area.name.clone(), places, needed: weight });
+        steps.done(1)?;
+    }
+    Ok(things)
+}
+
+fn of_area(
+    judging: &Judging<'_>,
+    (demand, states): (&RuleDemand, &BothStates),
+    area: &JudgedArea,
+    steps: &mut Steps<'_, '_>,
+) -> Result<Vec<KeptPlace>, StudyError> {
+    let parts = match &area.surface {
+        AreaSurface::Faces(faces) => triangles_of_faces(faces),
+        AreaSurface::Level(_) | AreaSurface::Ground(_) => triangles(&area.rings),
+    };
+    let m2: f64 = parts.iter().map(|part| part.m2).sum();
+    let on = AreaPlace::new(judging, states, &area.surface, &parts);
+    let spots = spots(&parts, (m2.sqrt() / ACROSS).max(LEAST_M));
+    let of = |(spot, m2): &(AreaSpot, f64)| -> Result<_, StudyError> {
+        place(judging, demand, (*m2, vec![on.judged_now(spot).point]), &on.light(spot)?)
+    };
+    in_steps(&spots, steps, of)
+}
+
+/// The middles of triangles whose sides are no longer than that, with their square metres.
+fn spots(parts: &[PartTriangle], longest_m: f64) -> Vec<(AreaSpot, f64)> {
+    let mut spots = Vec::new();
+    for part in parts {
+        let mut waiting = vec![(part.corners, part.m2)];
+        while let Some((corners, m2)) = waiting.pop() {
+            let length = |first: usize| corners[first].distance(corners[(first + 1) % 3]);
+            let longest = (0..3).max_by(|one, other| length(*one).total_cmp(&length(*other))).unwrap_or(0);
+            if length(longest) <= longest_m {
+                spots.push((AreaSpot { at: corners.iter().sum::<DVec3>() / 3.0, normal: part.normal }, m2));
+                continue;
+            }
+            let [a, b, c] = [0, 1, 2].map(|step| corners[(longest + step) % 3]);
+            let middle = (a + b) / 2.0;
+            waiting.extend([([a, middle, c], m2 / 2.0), ([middle, b, c], m2 / 2.0)]);
+        }
+    }
+    spots
+}
+
+fn of_lines(judging: &Judging<'_>, highest_m: f64, steps: &mut Steps<'_, '_>) -> Result<Vec<KeptThing>, StudyError> {
+    let RuleReceiver::Lines { height_m, over, deemed, bands, corners } = &judging.rule.receiver else {
+        return Ok(Vec::new());
+    };
+    let Some(plot) = &judging.site.plot else { return Ok(Vec::new()) };
+    let Some(base) = base_of(judging.site, plot, *over) else { return Ok(Vec::new()) };
+    let border = DeemedBorder::of(plot, *deemed, *corners);
+    let open = judging.days.open(None);
+    let low_deg = judging.days.lowest_deg().unwrap_or(90.0).max(LOWEST_DEG);
+    let reach_m = (highest_m / low_deg.to_radians().tan()).min(FARTHEST_M);
+    let mut things = Vec::new();
+    for (number, band) in bands.iter().enumerate() {
+        let demand = RuleDemand::of(judging.rule, Some(number))?;
+        let points: Vec<DVec3> = border
+            .spots(*band, band.from_m + reach_m, SPACING_M)
+            .into_iter()
+            .map(|spot| spot.at.extend(base + height_m + spot.raised_m))
+            .collect();
+        let states = judging.states(&points);
+        let of = |point: &DVec3| -> Result<_, StudyError> {
+            let judged = states.now.free(*point, None);
+            let now = states.now.lit(&judged, judging.days, &open)?;
+            place(judging, &demand, (1.0, vec![judged.point]), &PointLight { open: open.clone(), now, before: None })
+        };
+        let places = in_steps(&points, steps, of)?;
+        things.push(whole(named(number, *band), places));
+        steps.done(1)?;
+    }
+    Ok(things)
+}
+
+fn base_of(site: &JudgedSite, plot: &JudgedPlot, over: HeightOver) -> Option<f64> {
+    match over {
+        HeightOver::Ground => Some(site.now.ground.level),
+        HeightOver::MeanGround => plot.mean_ground,
+        HeightOver::Floor => None,
+    }
+}
+
+fn named(number: usize, band: Band) -> String {
+    let end = if band.to_m.is_finite() { format!(" to {} m", band.to_m) } else { " m outward".to_owned() };
+    format!("band {}, from {}{end}", number + 1, band.from_m)
+}
+
+/// Asks of many, and lets the listener end the work.
+fn in_steps<T: Sync>(
+    all: &[T],
+    steps: &mut Steps<'_, '_>,
+    of: impl Fn(&T) -> Result<KeptPlace, StudyError> + Sync,
+) -> Result<Vec<KeptPlace>, StudyError> {
+    let mut places = Vec::with_capacity(all.len());
+    for some in all.chunks(TOGETHER) {
+        places.extend(some.par_iter().map(&of).collect::<Result<Vec<_>, _>>()?);
+        steps.poll()?;
+    }
+    Ok(places)
+}
