@@ -111,7 +111,7 @@ pub fn envelope(
 fn plot<'s>(site: &'s JudgedSite, asked: &EnvelopeRequest<'_>) -> Result<(&'s JudgedPlot, Grid), DeliverError> {
     let Some(plot) = &site.plot else {
         let needs = RuleError::Needs { rule: asked.rule.id.clone(), what: "the plot that is built on".to_owned() };
-        return Err(StudyError::Rule(needs).into());
+        return Err(StudyError::from(needs).into());
     };
     let Some(grid) = plot_grid(plot, asked.cell_m) else {
         let message = message!["the plot has too many cells of that size"; "take larger ones"];

@@ -135,6 +135,8 @@ impl Worded for StudyError {
                 message!["no component that receives has a surface"; "see ", setting("[[model]]", "receives", "`receives` in the site file")]
             }
             StudyError::NoSunToSee { time, below_deg } => no_sun_to_see(time, *below_deg),
+            StudyError::NoEnvelope { rule, why } => no_envelope(rule, why),
+            StudyError::TooManyRays { rays, most } => too_many_rays(*rays, *most),
             StudyError::NoInstant => message!["there is no instant to draw"],
             StudyError::Components { list, length, components } => message![
                 format!("the site's list `{list}` has {length} entries, and its mesh {components} components");
@@ -216,17 +218,6 @@ fn too_many_rays(rays: i64, most: i64) -> Message {
     message![
         format!("{rays} seconds of sun, counted for each point, are more than {most}");
         "ask for fewer days, or less of the site"
-    ]
-}
-
-fn no_sun_to_see(time: &DateTime<Zone>, below_deg: f64) -> Message {
-    message![
-        Field::View,
-        format!(
-            ": no sun sees the site at {}: it is {below_deg:.1}° below the horizon",
-            time.format("%Y-%m-%d %H:%M")
-        );
-        "take times of day, or look from elsewhere"
     ]
 }
 

@@ -28,7 +28,7 @@ fn site_file_takes_no_models_beside_it() {
     let [file, open, toml] = ["site.toml", "open.glb", "other.toml"].map(|name| folder.path().join(name));
     let none = Overrides { place: None, ..asked(&[open]) };
     let error = WrittenSite::read(&file, &none).unwrap_err();
-    assert!(error.is_wrong_use() && error.to_string().contains("under [[model]]"), "{error}");
+    assert!(error.is_wrong_use() && error.to_string().contains("[[model]]"), "{error}");
     let error: SiteError = WrittenSite::read(&folder.path().join("tower.glb"), &asked(&[toml])).unwrap_err();
     assert!(error.is_wrong_use() && error.to_string().contains("other.toml is not a model"), "{error}");
 }

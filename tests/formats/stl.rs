@@ -71,7 +71,7 @@ fn what_is_cut_off_is_told() {
     let model = read_bytes("m.stl", &fewer);
     assert_eq!(triangles(&model).count(), 1);
     let told = model.notes[0].to_string();
-    assert!(told.contains("promises 1 triangle") && told.contains("950 more bytes, enough for 19 more"), "{told}");
+    assert!(told.contains("states 1 triangle") && told.contains("950 more bytes, enough for 19 more"), "{told}");
     assert!(read_bytes("m.stl", &[&whole[..], &[0; 49]].concat()).notes.is_empty());
     let text = text(&["house"]);
     let facet = text.rfind("outer").unwrap();

@@ -319,7 +319,9 @@ fn usual_numbers_for_no_height_are_none_with_a_note() {
         assert!(notes(&model).contains("which number means no height; taken as missing:"), "{}", notes(&model));
     }
     let heads = head().replace("NODATA_value -9999\n", "");
-    assert!(notes(&read("a.asc", ascii_grid(&heads), &ReadOptions::default()).unwrap()).contains("none: -9999"));
+    assert!(
+        notes(&read("a.asc", ascii_grid(&heads), &ReadOptions::default()).unwrap()).contains("taken as missing: -9999")
+    );
 }
 
 const LAND: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
@@ -402,7 +404,9 @@ fn rasters_beyond_the_file_are_refused() {
         }
     };
     let thread = CountedThread::new();
-    for (side, words) in [(9_900, "says that it has 9900 × 9900 heights"), (70_000, "a terrain may have 100000000")] {
+    for (side, words) in
+        [(9_900, "says that it has 9900 × 9900 heights"), (70_000, "a terrain may have at most 100000000")]
+    {
         let mut bytes = tif.clone();
         wide(side, &mut bytes);
         let (told, most) = thread.run(|| read("vast.tif", &bytes, &ReadOptions::default()).expect_err(words));

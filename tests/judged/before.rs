@@ -55,11 +55,11 @@ fn another_site_is_the_state_before() {
     write(&folder, "old.toml", models);
     assert!(open(folder.path()).before.is_some());
     write(&folder, "old.toml", &old.replace("latitude = 48.2", "latitude = 48.3"));
-    fails_in(folder.path(), &["old.toml", "[place] latitude", "one place"]);
+    fails_in(folder.path(), &["old.toml", "[place] latitude", "the same place"]);
     write(&folder, "old.toml", &old.replace("elevation = 165.0", ""));
     assert_eq!(open(folder.path()).place.elevation_m, 165.0);
     write(&folder, "old.toml", &old.replace("elevation = 165.0", "elevation = 100.0"));
-    fails_in(folder.path(), &["old.toml", "[place] elevation", "one place"]);
+    fails_in(folder.path(), &["old.toml", "[place] elevation", "the same place"]);
     write(&folder, "old.toml", &old.replace("level = 0.0", "level = 1.0"));
     fails_in(folder.path(), &["old.toml", "[ground] level", "1 m", "the same level"]);
     write(&folder, "old.toml", &old.replace("[ground]\nlevel = 0.0", ""));

@@ -23,7 +23,7 @@ pub fn csv(judgement: &Judgement) -> String {
 fn cells(judgement: &Judgement, of: &ReceiverRuling) -> Vec<String> {
     let finding = deciding(&of.ruling);
     let text = |text: &Option<String>| text.clone().unwrap_or_default();
-    let told = |number: Option<f64>| number.map(|number| (number + 0.0).to_string()).unwrap_or_default();
+    let written = |number: Option<f64>| number.map(|number| (number + 0.0).to_string()).unwrap_or_default();
     let value = finding.map(|finding| number(finding.value));
     let counted = least_counted(of).map(|(_, secs)| (secs as f64, "s"));
     let (value, unit) = value.or(counted).map_or((None, ""), |(value, unit)| (Some(value), unit));
