@@ -1,8 +1,9 @@
 //! An area as triangles with points at their corners, split where what is asked of it changes.
 //!
-//! A part of an area is bounded from both sides: all triangles whose corners keep the demand, and those of which some corners
-//! do; the middle between the two is told, and the half of what lies between as its error. A number is taken to change evenly
-//! from corner to corner: how wrong that is shows when a triangle is split, and the sum over its four parts is another one.
+//! A number is taken to change evenly from corner to corner, so that the part of a triangle in which it is not below 0 is cut
+//! off by a straight line. How wrong that is shows when the triangle is split: the sum over its four parts is another one.
+//! The error that is reported is the sum of what the last splits changed, all taken as of one sign; as each split lowers it
+//! to less than the half, what further ones would change is less.
 
 use super::super::StudyError;
 use super::judging::Steps;
@@ -134,7 +135,7 @@ impl Samples {
                 let three = self.of_leaf(leaf.corners, number);
                 let error = match kind {
                     _ if !is_open(kind, three) => 0.0,
-                    Summed::Part => leaf.m2 / 2.0,
+                    Summed::Part => leaf.changed.get(number).copied().unwrap_or(leaf.m2 / 2.0),
                     Summed::Number => leaf.changed.get(number).copied().unwrap_or(leaf.m2 * spread(three)),
                 };
                 (leaf.m2 * part(kind, three), error)
@@ -260,11 +261,25 @@ fn spread(three: [f64; 3]) -> f64 {
     a.max(b).max(c) - a.min(b).min(c)
 }
 
-/// The part of a triangle in which a number is not below 0, where its corners tell, and else the half; or the number's mean.
+/// The part of a triangle in which a number is not below 0, or the number's mean.
 fn part(kind: Summed, three: [f64; 3]) -> f64 {
     match kind {
         Summed::Number => three.iter().sum::<f64>() / 3.0,
-        Summed::Part if is_open(kind, three) => 0.5,
-        Summed::Part => f64::from(u8::from(three[0] >= 0.0)),
+        Summed::Part => {
+            let [low, middle, high] = sorted(three);
+            // the line cuts off the corner that is alone on its side
+            let corner = |alone: f64, others: [f64; 2]| alone * alone / ((alone - others[0]) * (alone - others[1]));
+            match [low, middle, high].iter().filter(|value| **value >= 0.0).count() {
+                0 => 0.0,
+                1 => corner(high, [low, middle]),
+                2 => 1.0 - corner(low, [middle, high]),
+                _ => 1.0,
+            }
+        }
     }
+}
+
+fn sorted(mut three: [f64; 3]) -> [f64; 3] {
+    three.sort_by(f64::total_cmp);
+    three
 }
