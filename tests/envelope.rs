@@ -354,15 +354,15 @@ fn the_command_writes_heights_that_keep_the_sun() {
 fn what_an_envelope_needs_is_told() {
     let folder = site();
     let path = folder.path();
-    let asked = "envelope . --rule pl-wt-60 --set clock=legal";
+    let asked = "envelope . --rule pl-wt-60 --set clock=legal --quiet";
     let without_plot = SITE.replace("[plot]\nborder = [[-8, -8], [8, -8], [8, 8], [-8, 8]]\n", "");
     std::fs::write(path.join("site.toml"), format!("{PLACE}{without_plot}")).unwrap();
     fails(path, asked, 2, &["pl-wt-60", "plot"]);
     std::fs::write(path.join("site.toml"), format!("{PLACE}{SITE}")).unwrap();
-    fails(path, "envelope . --rule us-sf-295", 2, &["us-sf-295"]);
-    fails(path, "envelope . --rule us-nyc-ceqr-shadows", 2, &["us-nyc-ceqr-shadows"]);
+    fails(path, "envelope . --rule us-sf-295 --quiet", 2, &["us-sf-295"]);
+    fails(path, "envelope . --rule us-nyc-ceqr-shadows --quiet", 2, &["us-nyc-ceqr-shadows"]);
     fails(path, &format!("{asked} --cell 0"), 2, &["--cell"]);
     fails(path, &format!("{asked} --highest 0"), 2, &["--highest"]);
     fails(path, &format!("{asked} --cell 0.011"), 2, &["--cell", "larger"]);
-    fails(path, "envelope . --rule nothing", 2, &["nothing", "gnomon rules"]);
+    fails(path, "envelope . --rule nothing --quiet", 2, &["nothing", "gnomon rules"]);
 }

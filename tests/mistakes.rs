@@ -65,7 +65,7 @@ fn mistakes_in_the_site_file_are_told() {
     told("[study]", "[camera]\nfov = 171\n[study]", &["[camera] fov", "170"]);
     told("[study]", "[camera]\nup = [0, 0, 0]\n[study]", &["[camera] up"]);
     told("[study]", "[camera]\neye = [1, 2, 3]\ntarget = [1, 2, 3]\n[study]", &["[camera] eye"]);
-    told("[study]", "[camera]\neye = [1, 2, 30]\ntarget = [1, 2, 3]\n[study]", &["[camera] up", "upwards"]);
+    told("[study]", "[camera]\neye = [1, 2, 30]\ntarget = [1, 2, 3]\n[study]", &["[camera] up", "no direction is up"]);
     told("[study]", "[[[", &["line 13"]);
 }
 

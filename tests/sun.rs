@@ -313,7 +313,7 @@ fn windows_that_are_none() {
     let bad = |from: &str, to: &str, step: &str| message(track(&paris(), "2026-09-18", from, to, step));
     assert!(bad("10:00", "10:00", "1h").contains("2026-09-19T10:00"));
     assert!(bad("10:00", "11:00", "0s").contains("step of 0"));
-    assert!(bad("12:00", "2026-09-18T11:00", "1h").contains("before it begins"));
+    assert!(bad("12:00", "2026-09-18T11:00", "1h").contains("before its beginning"));
     let year = message(track(&paris(), "", "2026-01-01T00:00", "2027-01-01T00:00", "1s"));
     assert!(year.contains("at least 32s"), "{year}");
     let long = message(track(&paris(), "", "2026-01-01T00:00", "2126-01-01T00:00", "1h"));

@@ -288,7 +288,7 @@ pub fn between_instants(
                 }
                 SinglySearched::Everything => format!("light or shade shorter than {step} may be missed"),
             };
-            Some(format!("changes of light between instants found to {found}; {missed}"))
+            Some(format!("changes found to {found}; {missed}"))
         }
     }
 }

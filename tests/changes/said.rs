@@ -47,7 +47,7 @@ fn it_is_said_with_the_hours() {
     let profile = "profile . --engine cpu --size 40 --step 1h --write json";
     let json = |more: &str| serde_json::from_str::<Value>(&done(at, &format!("{profile} {more} --json"))).unwrap();
     let said = |json: &Value| (json["resolution_secs"].clone(), json["between_instants"].clone());
-    let found = "changes of light between instants found to 1 min; ";
+    let found = "changes found to 1 min; ";
     let to_a_minute = format!("{found}above the ground light or shade shorter than 1 h may be missed");
     assert_eq!(said(&json("")), (60.into(), to_a_minute.clone().into()));
     // drawn at every moment, and searched ray by ray

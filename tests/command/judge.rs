@@ -97,7 +97,7 @@ fn wrong_use_is_one_line() {
     let folder = judged("dark");
     let at = folder.path();
     fails(at, "judge .", 2, &["--rule"]);
-    fails(at, "judge . --rule uk-bre", 2, &["no rule uk-bre", BRE, "gnomon rules"]);
+    fails(at, "judge . --rule uk-bre", 2, &["no rule `uk-bre`", BRE, "gnomon rules"]);
     fails(at, &format!("judge . --rule {BRE} --set loss"), 2, &["--set loss", "hours=2h"]);
     fails(at, &format!("judge . --rule {BRE} --set loss=none"), 2, &["loss", "both or either"]);
     fails(at, &format!("judge . --rule {BRE} --set los=both"), 2, &["no option `los`", "`loss`"]);

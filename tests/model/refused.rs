@@ -34,10 +34,10 @@ fn damaged_containers_are_refused() {
         load_bytes("model.glb", &glb)
     };
     assert_refused(load_bytes("model.glb", &whole[..9]), &["header has 9 of 12 bytes", "cut off"]);
-    assert_refused(load_bytes("model.glb", &whole[..whole.len() - 1]), &["promises", "cut off"]);
+    assert_refused(load_bytes("model.glb", &whole[..whole.len() - 1]), &["states", "cut off"]);
     assert_refused(with(4..8, &1_u32.to_le_bytes()), &["glTF 1.0", "export it as glTF 2.0"]);
-    assert_refused(with(8..12, &u32::MAX.to_le_bytes()), &["promises 4294967295 bytes"]);
-    assert_refused(with(8..12, &3_u32.to_le_bytes()), &["promises 3 bytes"]);
+    assert_refused(with(8..12, &u32::MAX.to_le_bytes()), &["states 4294967295 bytes"]);
+    assert_refused(with(8..12, &3_u32.to_le_bytes()), &["states 3 bytes"]);
     assert_refused(with(8..12, &16_u32.to_le_bytes()), &["chunk's header has 4 of 8 bytes"]);
     assert_refused(with(12..16, &0xffff_u32.to_le_bytes()), &["a chunk states 65535 bytes"]);
     assert_refused(with(16..20, b"BIN\0"), &["first chunk is not JSON"]);

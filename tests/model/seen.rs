@@ -195,7 +195,7 @@ fn harmless_extensions_and_textures_are_read_past() {
     let read = read(&model, None).unwrap();
     assert_eq!(read.parts.len(), 1);
     let told = "requires KHR_texture_basisu, KHR_materials_unlit, KHR_lights_punctual and CESIUM_primitive_outline, which \
-                change no shape and so no shadow";
+                change no shape, and so no shadow";
     assert_eq!(said(&read.notes), [told]);
     model.json["extensionsRequired"] = json!(["KHR_materials_unlit", "AGI_articulations"]);
     model.refused(&["AGI_articulations", "export it without"]);

@@ -142,7 +142,7 @@ fn points_of_a_table_are_probed() {
         ("name,x,y,z\na,1,2", &["line 2", "3 fields and 4 columns"]),
         ("name,x,y,z\na,1,2,3\n\nb,1,inf,3", &["line 4", "y is \"inf\""]),
         ("name,x,y,z\n\"a,1,2,3", &["line 2", "quote"]),
-        ("name,x,y,z\na,1,2,3\na,1,2,3", &["line 3", "\"a\"", "otherwise"]),
+        ("name,x,y,z\na,1,2,3\na,1,2,3", &["line 3", "\"a\"", "own name"]),
         ("name,x,y,z,nx,ny,nz\na,1,2,3,0,0,0", &["line 2", "no direction"]),
         ("name,x,y,z,nx,ny,nz\na,1,2,3,0,1,", &["line 2", "nz is \"\""]),
         ("name,x,y,z\n", &["has no point"]),
@@ -219,7 +219,7 @@ fn mistakes_are_told() {
         (
             "[[probe]]\npoint",
             "[[probe]]\nname = \"window, \\\"north\\\"\"\npoint",
-            &["[[probe]] number 2 name", "otherwise"],
+            &["[[probe]] number 2 name", "own name"],
         ),
     ] {
         with("wrong.toml", from, to);
