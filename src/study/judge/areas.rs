@@ -131,8 +131,8 @@ impl AreaWork<'_> {
             Ok(margins(judging, &light, &asked))
         };
         let m2 = self.m2;
-        let is_good = |sums: &AreaSums| sums.errors.iter().all(|error| *error <= GOOD_SHARE * m2);
-        let sums = self.samples.refine(&kinds, &value, (&is_good, MOST_POINTS), steps)?;
+        let allowed = |_: &AreaSums, _: usize| GOOD_SHARE * m2;
+        let sums = self.samples.refine(&kinds, &value, (&allowed, MOST_POINTS), steps)?;
         let lights: Vec<AreaLight<'_>> = (0..judging.days.days.len())
             .map(|day| {
                 let met = |number: usize| {
@@ -217,8 +217,8 @@ impl AreaWork<'_> {
         };
         let open: i64 = days.iter().map(|day| total_secs(&day.windows)).sum();
         let enough = 1e-6 * self.m2 * open as f64;
-        let is_good = |sums: &AreaSums| sums.errors[0] <= (GOOD_LOAD * sums.sums[0]).max(enough);
-        self.samples.refine(&[Summed::Number], &value, (&is_good, MOST_POINTS_OF_SUMS), steps)?;
+        let allowed = |sums: &AreaSums, number: usize| (GOOD_LOAD * sums.sums[number]).max(enough);
+        self.samples.refine(&[Summed::Number], &value, (&allowed, MOST_POINTS_OF_SUMS), steps)?;
         let sums = self.samples.sums(&vec![Summed::Number; days.len() + 1]);
         let each_error = sums.errors[0] / days.len().max(1) as f64;
         let of = |(at, day)| ShadowLoad { day, m2_secs: sums.sums[at + 1], error_m2_secs: each_error };

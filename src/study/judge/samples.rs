@@ -146,13 +146,13 @@ impl Samples {
         AreaSums { sums, errors }
     }
 
-    /// Splits the triangles in which what is asked changes, until all sums are known as well as `is_good` wants them, or there
+    /// Splits the triangles in which what is asked changes, until no sum's error is above what `allowed` gives for it, or there
     /// are `most` points.
     pub(super) fn refine(
         &mut self,
         kinds: &[Summed],
         value: Valuing<'_>,
-        (is_good, most): (&dyn Fn(&AreaSums) -> bool, usize),
+        (allowed, most): (&dyn Fn(&AreaSums, usize) -> f64, usize),
         steps: &mut Steps<'_, '_>,
     ) -> Result<AreaSums, StudyError> {
         /// As often at least all triangles are split in which it changes or may.
@@ -161,18 +161,24 @@ impl Samples {
         self.ask(value, steps)?;
         let mut sums = self.sums(kinds);
         for pass in 0..AT_MOST {
-            if pass >= AT_LEAST && is_good(&sums) || self.spots.len() > most {
+            let allowed: Vec<f64> = (0..kinds.len()).map(|number| allowed(&sums, number)).collect();
+            let is_good = || sums.errors.iter().zip(&allowed).all(|(error, allowed)| error <= allowed);
+            if pass >= AT_LEAST && is_good() || self.spots.len() > most {
                 break;
             }
+            // what all triangles may keep that are not split any more is the half of what is allowed
+            let kept: Vec<f64> = (0..kinds.len()).map(|number| allowed[number] / 2.0 / self.open(kinds, number)).collect();
             let leaves = std::mem::take(&mut self.leaves);
             let is_split = |leaf: &Leaf| {
                 (0..kinds.len()).any(|number| {
                     let three = self.of_leaf(leaf.corners, number);
-                    is_open(kinds[number], three) || pass < AT_LEAST && is_near(kinds[number], three)
+                    let is_rough = || leaf.changed.get(number).is_none_or(|changed| *changed > kept[number]);
+                    is_open(kinds[number], three) && (pass < AT_LEAST || is_rough())
+                        || pass < AT_LEAST && is_near(kinds[number], three)
                 })
             };
-            let (split, kept): (Vec<Leaf>, Vec<Leaf>) = leaves.into_iter().partition(is_split);
-            self.leaves = kept;
+            let (split, whole): (Vec<Leaf>, Vec<Leaf>) = leaves.into_iter().partition(is_split);
+            self.leaves = whole;
             if split.is_empty() {
                 break;
             }
@@ -180,6 +186,12 @@ impl Samples {
             sums = self.sums(kinds);
         }
         Ok(sums)
+    }
+
+    /// The number of triangles in which a number is open, at least 1.
+    fn open(&self, kinds: &[Summed], number: usize) -> f64 {
+        let is_open = |leaf: &&Leaf| is_open(kinds[number], self.of_leaf(leaf.corners, number));
+        self.leaves.iter().filter(is_open).count().max(1) as f64
     }
 
     /// Splits leaves into four each, and notes by how much that changes them.
