@@ -26,8 +26,9 @@
 //!
 //! [`study::run`] returns the [`profile::Profile`]: [`profile::Shaded::in_one_word`] is the slice of sums,
 //! [`view::Grid::transform`] its transform. To distribute a study, [`study::TiledStudy::sum`] computes one tile at some
-//! instants, whose fields are plain data ([`sun::Instant`]); [`study::TiledStudy::number`] is the study's fingerprint,
-//! the same on every machine.
+//! instants, whose fields are plain data ([`sun::Instant`]); [`study::TiledStudy::number`] is the study's fingerprint.
+//! Equal inputs give the same number on all machines and with all compilers; the inputs include Gnomon's version, the
+//! engine, the adapter's name, the tiles, the masks' folder, and every bit of the models and of the sun's directions.
 //!
 //! ```no_run
 #![doc = include_str!("../examples/sums-of-a-study.rs")]

@@ -29,8 +29,6 @@ macro_rules! fields {
 fields! {
     /// Latitude and longitude.
     Place => "place",
-    /// Several model files.
-    Models => "models",
     /// The up axis of all models.
     Up => "up",
     /// The height of footprints whose files give none.

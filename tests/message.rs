@@ -1,7 +1,7 @@
 //! How errors and notes name the fields of a request in each interface.
 
 use crate::shared::program::done;
-use crate::site::{SITE, load, some};
+use crate::site::{SITE, folder, load, some};
 use gnomon::choice::Receivers;
 use gnomon::cli::Options;
 use gnomon::fault;
@@ -63,6 +63,17 @@ fn fields_are_options_of_the_command() {
         let (option, value) = option.split_once(' ').unwrap_or((option, ""));
         assert!(taken.contains(&option) && (value.is_empty() || taken.contains(&value)), "{field:?}: {option} {value}");
     }
+}
+
+/// A file beside a site file is an error about these two, and a mistake in the command line.
+#[test]
+fn files_that_cannot_stand_together_are_named() {
+    let folder = folder(SITE);
+    let asked = Overrides { beside: vec![folder.path().join("house.glb")], ..Overrides::default() };
+    let error = Site::load(folder.path(), &asked).expect_err("a mistake");
+    let said = error.in_words(&Options);
+    assert!(error.is_wrong_use() && said.contains("house.glb is named beside the site file "), "{said}");
+    assert!(said.ends_with("; add it as a [[model]] in the site file"), "{said}");
 }
 
 /// The causes of an error use the same words, and each is printed once.

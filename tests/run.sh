@@ -17,7 +17,11 @@ Without an option: format, lints (also of the command without its window), all t
   - lints (cargo clippy), the build without the window, and the documentation;
   - most tests that draw with the graphics adapter, and those that hold techniques against ray casting;
   - drawings, hours on façades, years, tiles, and studies that were stopped;
+  - the readers of model files, terrain, reference systems, and the names of components;
+  - rules, judging by them, and how high may be built;
+  - choices of technique, messages, the folders of a study, and the library's interface;
   - all tests of the window, and nearly all of the command as a process of its own.
+The list QUICK in this file has the modules whose tests it runs.
 Run everything before you hand a change in.
 EOF
 }

@@ -20,7 +20,6 @@ impl Words for Options {
         Some(match field {
             Field::Place => "--place",
             Field::Up => "--up",
-            Field::Models => "SITE",
             Field::DefaultHeight => "--default-height",
             Field::ReadTime => "--read-time",
             Field::ReadMemory => "--read-memory",

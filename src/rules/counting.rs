@@ -7,7 +7,7 @@ use crate::choice::words;
 
 /// What a rule counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Counted {
+pub enum CountedTime {
     /// Time in the sun.
     Sun,
     /// Time in shadow.
@@ -16,10 +16,10 @@ pub enum Counted {
     NewShadow,
 }
 
-words!(Counted, [
-    "sun" => Counted::Sun,
-    "shadow" => Counted::Shadow,
-    "new-shadow" => Counted::NewShadow,
+words!(CountedTime, [
+    "sun" => CountedTime::Sun,
+    "shadow" => CountedTime::Shadow,
+    "new-shadow" => CountedTime::NewShadow,
 ]);
 
 /// How spells become a number.
@@ -58,7 +58,7 @@ pub struct Bridge {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Counting {
     /// What is counted.
-    pub what: Counted,
+    pub what: CountedTime,
     /// How it is counted, unless a criterion has a `how` of its own.
     pub how: CountHow,
     /// The length from which a spell counts, seconds.

@@ -1,7 +1,7 @@
 //! Judges receivers that are either lit or not as a whole: a point, a window, or an area that counts as lit if any part
 //! of it is.
 
-use super::counting::{CountHow, Counted, SpellCount};
+use super::counting::{CountHow, CountedTime, SpellCount};
 use super::criterion::{Criterion, Demand, Extent};
 use super::days::DayJudge;
 use super::error::RuleError;
@@ -103,9 +103,9 @@ impl ResolvedRule {
         let tally = |spells: &[Spell]| self.counting.tally(criterion.how, spells, windows);
         let shaded = |lit: &[Spell]| without(light.open, lit);
         let (now, before) = match self.counting.what {
-            Counted::Sun => (tally(light.lit), light.before.map(tally)),
-            Counted::Shadow => (tally(&shaded(light.lit)), light.before.map(|lit| tally(&shaded(lit)))),
-            Counted::NewShadow => {
+            CountedTime::Sun => (tally(light.lit), light.before.map(tally)),
+            CountedTime::Shadow => (tally(&shaded(light.lit)), light.before.map(|lit| tally(&shaded(lit)))),
+            CountedTime::NewShadow => {
                 let new = match light.newly_shaded {
                     Some(new) => tally(new),
                     None => tally(&without(light.before.ok_or_else(|| self.needs_before())?, light.lit)),
@@ -131,7 +131,7 @@ impl ResolvedRule {
     fn finding(&self, number: usize, counts: CountedDay) -> Result<Finding, RuleError> {
         let criterion = &self.criteria[number];
         let CountedDay { now, before, no_sun_left_secs } = counts;
-        if criterion.needs_before() && self.counting.what != Counted::NewShadow && before.is_none() {
+        if criterion.needs_before() && self.counting.what != CountedTime::NewShadow && before.is_none() {
             return Err(self.needs_before());
         }
         let reference = before.filter(|_| self.compare == Some(CompareWith::Reference));
@@ -157,7 +157,7 @@ impl ResolvedRule {
 }
 
 /// A verdict, its excuse, its limit and its margin.
-type Held = (Verdict, Option<Excuse>, Option<i64>, Option<i64>);
+type LimitOutcome = (Verdict, Option<Excuse>, Option<i64>, Option<i64>);
 
 fn at_least(
     criterion: &Criterion,
@@ -166,7 +166,7 @@ fn at_least(
     now: SpellCount,
     before: Option<SpellCount>,
     reference: Option<SpellCount>,
-) -> Held {
+) -> LimitOutcome {
     // with a limit for the longest spell, too, the larger shortfall decides
     let of_longest = if longest_secs > 0 { now.longest_secs - longest_secs } else { i64::MAX };
     let margin = (now.secs - secs).min(of_longest);
@@ -183,7 +183,7 @@ fn at_least(
     (verdict, excuse, Some(secs), Some(margin))
 }
 
-fn at_most(secs: i64, now: SpellCount, reference: Option<SpellCount>) -> Held {
+fn at_most(secs: i64, now: SpellCount, reference: Option<SpellCount>) -> LimitOutcome {
     let margin = secs - now.secs;
     let (verdict, excuse) = match () {
         () if margin >= 0 => (Verdict::Pass, None),

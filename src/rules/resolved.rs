@@ -1,7 +1,7 @@
 //! A rule whose options are all set, and its days in a year at a place.
 
 use super::clock::ClockRule;
-use super::counting::{CountHow, Counted, Counting};
+use super::counting::{CountHow, CountedTime, Counting};
 use super::criterion::{Criterion, Demand, DwellingShare, Extent};
 use super::cuts::SunCuts;
 use super::days::{DayJudge, DaySet};
@@ -118,7 +118,7 @@ impl ResolvedRule {
     fn check(&self, root: &TableReader) -> Result<(), RuleError> {
         let has_before = self.compare == Some(CompareWith::Before);
         let needs_before =
-            self.counting.what == Counted::NewShadow || self.criteria.iter().any(Criterion::needs_before);
+            self.counting.what == CountedTime::NewShadow || self.criteria.iter().any(Criterion::needs_before);
         if needs_before && !has_before {
             return Err(root.wrong("compare", "comparing with the state before needs [compare] with = \"before\""));
         }
@@ -159,7 +159,7 @@ impl ResolvedRule {
                 "judge = \"sum\" adds up time; a share of an area belongs to one day, and cannot be added up",
             ));
         }
-        if is_area_time && !(is_sum && self.counting.what == Counted::NewShadow) {
+        if is_area_time && !(is_sum && self.counting.what == CountedTime::NewShadow) {
             return Err(root.wrong("count", "area-time needs what = \"new-shadow\" and judge = \"sum\""));
         }
         Ok(())

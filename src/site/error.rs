@@ -58,6 +58,8 @@ pub enum SiteError {
     },
     /// The file's format is not one that is read; with a hint.
     UnknownFormat(Message),
+    /// A file that cannot be read together with the one named before it; with a hint.
+    Beside(Message),
     /// The text's encoding is not one that site files may have.
     Encoding {
         /// The file as the user gave it.
@@ -170,7 +172,7 @@ impl Worded for SiteError {
                 ", for example ",
                 (Field::Place, "48.8583,2.2945")
             ],
-            SiteError::UnknownFormat(message) => message.clone(),
+            SiteError::UnknownFormat(message) | SiteError::Beside(message) => message.clone(),
             SiteError::Encoding { file, what } => message![format!("{file} {what}"); "save it as UTF-8"],
             SiteError::Toml { file, line, text, what } => {
                 message![format!("{file}, line {line} `{text}`: {what}"); "the file must be TOML"]
@@ -245,7 +247,10 @@ impl SiteError {
     /// Whether the command line was wrong (exit status 2) rather than a file (exit status 1).
     pub fn is_wrong_use(&self) -> bool {
         match self {
-            SiteError::NoPlaceForModel { .. } | SiteError::NoStudy { .. } | SiteError::NoProbe { .. } => true,
+            SiteError::NoPlaceForModel { .. }
+            | SiteError::NoStudy { .. }
+            | SiteError::NoProbe { .. }
+            | SiteError::Beside(_) => true,
             SiteError::Value { at, .. } | SiteError::Sun { at, .. } | SiteError::UnknownName { at, .. } => {
                 matches!(at, FieldLocation::Field(_))
             }

@@ -180,8 +180,8 @@ pub const SITE_KEYS: &[SiteKey] = &[
              `vegetation`, `bridge`, `water`.",
         ),
     key("model", "layers", ValueType::Texts, "layers = [\"walls\", \"!furniture\"]").default("all").means(
-        "What of the file is read, by names as in `casts`: layers, storeys, groups, materials or components. The rest is not \
-             read stands nowhere, and is counted among what was left out.",
+        "What of the file is read, by names as in `casts`: layers, storeys, groups, materials or components. The rest \
+             stands nowhere, and is counted among what was left out.",
     ),
     key("model", "crs", ValueType::Text, "crs = \"EPSG:25832\"").default("as the file says").means(
         "The reference system of the model's coordinates, which determines position and north: its number in the EPSG \

@@ -6,8 +6,9 @@ use crate::view::Probe;
 use glam::{DVec3, Vec3};
 use rustc_hash::FxHashSet;
 
+/// How points are laid on components.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Laying {
+pub(super) enum PointLayout {
     /// One in the middle of each piece.
     Pieces,
     /// On upright faces, at this spacing and this height, metres in the world frame.
@@ -16,11 +17,16 @@ pub(super) enum Laying {
 
 /// Returns the points on the chosen components, at most a few more than `most`. Each comes with the normal of what may
 /// be its outer side, and none has the name of a point in `beside`.
-pub(super) fn lay(mesh: &Mesh, chosen: &[bool], laying: Laying, (most, beside): (usize, &[Probe])) -> Vec<Vec<Probe>> {
+pub(super) fn lay(
+    mesh: &Mesh,
+    chosen: &[bool],
+    layout: PointLayout,
+    (most, beside): (usize, &[Probe]),
+) -> Vec<Vec<Probe>> {
     let mut laid: Vec<Vec<Probe>> = Vec::new();
     let named = mesh.components.iter().zip(chosen).filter(|(_, chosen)| **chosen).map(|(component, _)| component);
-    match laying {
-        Laying::Pieces => {
+    match layout {
+        PointLayout::Pieces => {
             for component in named {
                 let sides = pieces(mesh, component).into_iter().filter_map(|faces| sides_of(mesh, &faces));
                 laid.extend(named_after(component, sides.take(most + 1).collect()));
@@ -29,7 +35,7 @@ pub(super) fn lay(mesh: &Mesh, chosen: &[bool], laying: Laying, (most, beside): 
                 }
             }
         }
-        Laying::Row { spacing, height } => {
+        PointLayout::Row { spacing, height } => {
             let patches = Patches::of(mesh, chosen, spacing.max(0.25), MOST_TEXELS);
             for (index, component) in mesh.components.iter().enumerate() {
                 let mut rows = Vec::new();

@@ -4,7 +4,7 @@ use super::dates::{date_of, of_each_day, several};
 use super::error::{FieldLocation, SiteError};
 use super::file::Names;
 use super::ground::{self, Ground};
-use super::laid::{Laying, lay};
+use super::laid::{PointLayout, lay};
 use super::models::Models;
 use super::names::names_of;
 use super::notes::on_probes;
@@ -108,9 +108,9 @@ fn laid(mesh: &Mesh, asked: &Overrides, ground: f64, beside: &[Probe]) -> Result
         return Ok(Vec::new());
     }
     let laying = match (asked.spacing, asked.height) {
-        (None, None) => Laying::Pieces,
+        (None, None) => PointLayout::Pieces,
         (Some(spacing), Some(height)) if spacing.is_finite() && spacing >= 0.01 && height.is_finite() => {
-            Laying::Row { spacing, height: ground + height }
+            PointLayout::Row { spacing, height: ground + height }
         }
         (Some(_), Some(_)) => {
             let message = message!["is not a distance between points"; "write at least 0.01 metres"];

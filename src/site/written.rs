@@ -5,7 +5,7 @@ use super::file::{ModelTable, SiteFile};
 use super::keys;
 use super::overrides::{Overrides, refuse};
 use crate::formats::{self, ModelError, on_disk};
-use crate::message::{Field, Message, message};
+use crate::message::{Field, message};
 use crate::sun::Place;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -63,11 +63,6 @@ fn may_be_site(path: &Path, bytes: &[u8]) -> bool {
     is_called_so || is_wide || bytes.split(|byte| *byte == b'\n').any(has_table) || is_toml().is_some()
 }
 
-/// An error about several paths.
-fn refuse_beside(message: Message) -> SiteError {
-    refuse(FieldLocation::Field(Field::Models), message)
-}
-
 impl WrittenSite {
     /// Reads the argument SITE: a site file, a folder that contains a `site.toml`, or a model whose place is in the
     /// file or in the request.
@@ -122,12 +117,12 @@ impl WrittenSite {
         for file in files {
             let name = file.display().to_string();
             if !self.text.is_empty() {
-                let what = format!("{name} stands beside the site file {}", self.file);
-                return Err(refuse_beside(message![what; "add it as a [[model]] in the site file"]));
+                let what = format!("{name} is named beside the site file {}", self.file);
+                return Err(SiteError::Beside(message![what; "add it as a [[model]] in the site file"]));
             }
             if !formats::is_model(file) {
                 let what = format!("{name} is not a model of a known format");
-                return Err(refuse_beside(message![what; "give only model files, or one site"]));
+                return Err(SiteError::Beside(message![what; "give only model files, or one site"]));
             }
             self.site.model.push(ModelTable { path: Some(self.path_of(file)), ..ModelTable::default() });
         }

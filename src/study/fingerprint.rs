@@ -1,8 +1,10 @@
 //! The fingerprint of a study: a hash of everything that its result depends on, so that no study continues from the
 //! sums of another one.
 //!
-//! This file lists what is hashed: named fields as little-endian bytes, with SipHash-1-3 and the keys 0. All compilers
-//! and machines compute the same number.
+//! This file lists what is hashed: named fields as little-endian bytes, with SipHash-1-3 and the keys 0. Equal
+//! fields give the same number with all compilers and on all machines. But the engine, the adapter's name, the tiles, the
+//! masks' folder, and the bits of the models' corners and of the directions to the sun are among the fields, and may
+//! differ from one machine to another.
 
 use super::Wants;
 use crate::choice::Receivers;

@@ -106,7 +106,7 @@ fn light(
 ) -> Result<PatchOutcome, StudyError> {
     let (day_secs, night_secs) = day_and_night(&site.track);
     let drawn = provenance(site, choice, &painter);
-    let keeping = keep_every.map(|every| Keeping { every, number: number(site, &drawn, choice, patches) });
+    let keeping = keep_every.map(|every| KeepSchedule { every, number: number(site, &drawn, choice, patches) });
     let casters = site.mesh.of_components(&site.casts);
     let mut texture = SoftTexture::new(casters, Arc::clone(patches), painter, choice)?;
     watch.lap("prepare");
@@ -125,7 +125,7 @@ fn light(
 
 /// How often the state is kept, and the study's fingerprint.
 #[derive(Clone, Copy)]
-struct Keeping {
+struct KeepSchedule {
     every: Duration,
     number: u64,
 }
@@ -134,13 +134,13 @@ struct Keeping {
 fn add_instants(
     site: &Site,
     mut sum: PatchSum<'_>,
-    keeping: Option<Keeping>,
+    keeping: Option<KeepSchedule>,
     texels: usize,
     on_event: &mut OnEvent<'_>,
 ) -> Result<(), StudyError> {
     let count = site.track.instants.len();
     let begun = RefCell::new(None);
-    if let Some(Keeping { number, .. }) = keeping {
+    if let Some(KeepSchedule { number, .. }) = keeping {
         tell(on_event, Event::Prepared { number, begun: &begun })?;
     }
     let is_of = |begun: &Unfinished| {
@@ -162,7 +162,8 @@ fn add_instants(
         let keeps = keeping.filter(|_| sum.searches_before(index));
         let before_gap = keeps.map(|_| sum.so_far()).transpose()?;
         let added = sum.add(index, on_event);
-        if let (Err(StudyError::Interrupted), Some(sums), Some(Keeping { number, .. })) = (&added, before_gap, keeping)
+        if let (Err(StudyError::Interrupted), Some(sums), Some(KeepSchedule { number, .. })) =
+            (&added, before_gap, keeping)
         {
             let (study, shaded) = (number, sums.into());
             let unfinished = Unfinished { study, tiles: 1, done: index, shaded, statistics: None };
@@ -171,7 +172,7 @@ fn add_instants(
         added?;
         let told = tell(on_event, Event::Drawn { index, count, time: instant.time, mask: None, bits: None });
         let is_last = index + 1 == count && was_kept;
-        if let Some(Keeping { every, number }) = keeping
+        if let Some(KeepSchedule { every, number }) = keeping
             && (told.is_err() || is_last || kept.elapsed() >= every)
         {
             let shaded = sum.so_far()?.into();

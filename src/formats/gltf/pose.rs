@@ -23,13 +23,14 @@ const BIND_SLACK: f64 = 1e-4;
 pub(super) struct Pose<'a> {
     /// Displacements with their weights.
     targets: Vec<(f64, Reader<'a>)>,
-    skin: Option<Skinned<'a>>,
+    skin: Option<PrimitiveSkin<'a>>,
 }
 
 /// The joints of a skin: for each, the transform from the mesh's units to the world.
 type Joints = Arc<[DAffine3]>;
 
-struct Skinned<'a> {
+/// What bends a primitive: joints, and how much each moves a vertex.
+struct PrimitiveSkin<'a> {
     joints: Joints,
     /// Sets of four joints and four weights for each vertex; at least one set.
     sets: Vec<(Reader<'a>, Reader<'a>)>,
@@ -55,7 +56,7 @@ impl<'a> Pose<'a> {
         let skin = match skin {
             Some(skin) => {
                 let joints = skins.get(place.node, skin, accessors)?;
-                Some(Skinned { joints, sets: sets(accessors, triangles, primitive)? })
+                Some(PrimitiveSkin { joints, sets: sets(accessors, triangles, primitive)? })
             }
             None => None,
         };
@@ -98,7 +99,7 @@ impl<'a> Pose<'a> {
     }
 }
 
-impl Skinned<'_> {
+impl PrimitiveSkin<'_> {
     /// The position of a vertex as the weighted mean of its joints. Weights are divided by their sum, which is 1 except
     /// for rounding. A vertex without weights follows its first joint, as in viewers.
     fn point(&self, at: DVec3, vertex: usize) -> DVec3 {

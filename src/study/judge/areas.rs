@@ -4,11 +4,11 @@ use super::super::StudyError;
 use super::area_light::{AreaPlace, AreaStates};
 use super::judging::{Judging, Steps};
 use super::point_light::{CountedLight, PointLight, merit};
-use super::samples::{AreaSpot, AreaSums, Samples, Summed};
+use super::samples::{AreaSpot, AreaSums, Samples, SumKind};
 use crate::judgement::{AreaSize, JudgedThing, ReceiverRuling, ReceiverSpells, triangles, triangles_of_faces};
 use crate::rules::{
-    AreaLight, CountHow, Counted, Criterion, DayLight, Demand, Extent, PartMet, RuleError, Ruling, ShadowLoad, Verdict,
-    total_secs,
+    AreaLight, CountHow, CountedTime, Criterion, DayLight, Demand, Extent, PartMet, RuleError, Ruling, ShadowLoad,
+    Verdict, total_secs,
 };
 use crate::site::{AreaSurface, JudgedArea};
 use crate::sun::SunError;
@@ -99,7 +99,7 @@ fn question(judging: &Judging<'_>) -> AreaQuestion {
         AreaQuestion::Load
     } else if has(&is_of_part) {
         AreaQuestion::Part
-    } else if rule.counting.what == Counted::NewShadow || rule.is_report() {
+    } else if rule.counting.what == CountedTime::NewShadow || rule.is_report() {
         AreaQuestion::NewShadow
     } else {
         AreaQuestion::Worst
@@ -125,7 +125,7 @@ impl AreaWork<'_> {
     fn part(mut self, steps: &mut Steps<'_, '_>) -> Result<AreaAnswer, StudyError> {
         let (judging, asked) = (self.judging, self.asked());
         let states = if judging.before.is_some() { 2 } else { 1 };
-        let kinds = vec![Summed::Part; asked.len() * states];
+        let kinds = vec![SumKind::Part; asked.len() * states];
         let value = |spot: &AreaSpot| -> Result<Vec<f64>, SunError> {
             let light = self.place.light(spot)?.counted();
             Ok(margins(judging, &light, &asked))
@@ -218,8 +218,8 @@ impl AreaWork<'_> {
         let open: i64 = days.iter().map(|day| total_secs(&day.windows)).sum();
         let enough = 1e-6 * self.m2 * open as f64;
         let allowed = |sums: &AreaSums, number: usize| (GOOD_LOAD * sums.sums[number]).max(enough);
-        self.samples.refine(&[Summed::Number], &value, (&allowed, MOST_POINTS_OF_SUMS), steps)?;
-        let sums = self.samples.sums(&vec![Summed::Number; days.len() + 1]);
+        self.samples.refine(&[SumKind::Number], &value, (&allowed, MOST_POINTS_OF_SUMS), steps)?;
+        let sums = self.samples.sums(&vec![SumKind::Number; days.len() + 1]);
         let each_error = sums.errors[0] / days.len().max(1) as f64;
         let of = |(at, day)| ShadowLoad { day, m2_secs: sums.sums[at + 1], error_m2_secs: each_error };
         let loads: Vec<ShadowLoad<'_>> = days.iter().enumerate().map(of).collect();

@@ -5,7 +5,7 @@ use super::days::{JudgedDays, hulls};
 use super::groups::{WindowsJudged, groups, of_groups};
 use super::judging::{Judging, Steps};
 use super::needs;
-use super::receivers::{Found, found};
+use super::receivers::{JudgedReceivers, found};
 use super::whole::{day_verdicts, grade, notes, with_takers};
 use crate::judgement::Judgement;
 use crate::rules::{CompareWith, ResolvedRule, RuleSource, Ruling, Verdict};
@@ -31,7 +31,7 @@ pub fn judge(
     let judging = Judging { site, rule, days: &days, before };
     let Some(first) = hulls.first() else { return Err(StudyError::NoDay) };
     let mut steps = Steps::new(on_event, judging.count(), first.from)?;
-    let Found { mut receivers, windows } = found(&judging, &mut steps)?;
+    let JudgedReceivers { mut receivers, windows } = found(&judging, &mut steps)?;
     let rulings: Vec<Ruling> = receivers.iter().map(|(receiver, _)| receiver.ruling.clone()).collect();
     let groups = groups(&WindowsJudged {
         rule,

@@ -5,8 +5,8 @@ use super::point_light::CountedLight;
 use super::windows::WindowLight;
 use crate::judgement::{GroupKind, GroupRuling};
 use crate::rules::{
-    Counted, Criterion, Demand, DwellingSun, Extent, Grouping, ResolvedRule, RoomRuling, RuleDay, RuleReceiver, Ruling,
-    Verdict,
+    CountedTime, Criterion, Demand, DwellingSun, Extent, Grouping, ResolvedRule, RoomRuling, RuleDay, RuleReceiver,
+    Ruling, Verdict,
 };
 use crate::site::JudgedWindow;
 
@@ -197,7 +197,7 @@ fn of_uses(rule: &ResolvedRule, uses: &[(String, i64)]) -> Verdict {
 
 /// What a criterion counts on the day with the least of it.
 fn least_secs(judged: &WindowsJudged<'_>, light: &CountedLight, number: usize) -> Result<i64, StudyError> {
-    debug_assert!(judged.rule.counting.what == Counted::Sun);
+    debug_assert!(judged.rule.counting.what == CountedTime::Sun);
     let mut least = i64::MAX;
     for day in light.days(judged.days) {
         if day.day.criteria[number].is_some() {

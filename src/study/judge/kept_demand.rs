@@ -4,7 +4,7 @@ use super::super::StudyError;
 use super::super::envelope::{DaysNeeded, KeptPlace, SunNeeded};
 use crate::judgement::{LitSpell, spells_of};
 use crate::rules::{
-    CountHow, Counted, Criterion, DayJudge, Demand, Extent, ResolvedRule, RuleDay, Spell, common, total_secs,
+    CountHow, CountedTime, Criterion, DayJudge, Demand, Extent, ResolvedRule, RuleDay, Spell, common, total_secs,
 };
 
 /// The criteria of a rule that say how much sun must stay, at most one of them on a day.
@@ -44,7 +44,7 @@ impl RuleDemand {
         }
         match (rule.counting.what, criteria.is_empty()) {
             (_, true) => Err(refused(rule, "it has no limit of time")),
-            (Counted::NewShadow, _) => Err(refused(rule, "it counts new shadow, and not the sun that stays")),
+            (CountedTime::NewShadow, _) => Err(refused(rule, "it counts new shadow, and not the sun that stays")),
             _ => Ok(RuleDemand { criteria }),
         }
     }
@@ -79,13 +79,15 @@ impl RuleDemand {
             CountHow::Instants | CountHow::AreaTime => return Err(refused(rule, "it counts no spells of sun")),
         };
         match (&criterion.demand, rule.counting.what) {
-            (Demand::AtLeast { secs, longest_secs: 0 }, Counted::Sun) => {
+            (Demand::AtLeast { secs, longest_secs: 0 }, CountedTime::Sun) => {
                 let secs = if at_once { (*secs).max(rule.counting.shortest_secs) } else { *secs };
                 Ok(SunNeeded { lit, secs, at_once })
             }
-            (Demand::AtLeast { .. }, Counted::Sun) => Err(refused(rule, "it asks for a total and for one long spell")),
+            (Demand::AtLeast { .. }, CountedTime::Sun) => {
+                Err(refused(rule, "it asks for a total and for one long spell"))
+            }
             // a short shadow that does not count is more than must be
-            (Demand::AtMost(secs), Counted::Shadow) if criterion.how == CountHow::Total => {
+            (Demand::AtMost(secs), CountedTime::Shadow) if criterion.how == CountHow::Total => {
                 let all = total_secs(&common(open, windows));
                 Ok(SunNeeded { lit, secs: (all - secs).max(0), at_once: false })
             }

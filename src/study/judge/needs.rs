@@ -3,7 +3,7 @@
 use crate::judgement::{narrow_place, needed_of_window};
 use crate::message::few;
 use crate::rules::{
-    CompareWith, Counted, Criterion, DwellingShare, Grouping, HeightOver, ResolvedRule, RuleError, RuleReceiver,
+    CompareWith, CountedTime, Criterion, DwellingShare, Grouping, HeightOver, ResolvedRule, RuleError, RuleReceiver,
 };
 use crate::site::{AreaSurface, JudgedSite};
 use std::collections::BTreeMap;
@@ -24,7 +24,7 @@ pub(super) fn check(rule: &ResolvedRule, site: &JudgedSite) -> Result<(), RuleEr
         RuleReceiver::Window { .. } => of_windows(rule, site, &mut needs),
         RuleReceiver::Lines { over, .. } => of_plot(*over, site, &mut needs),
     }
-    let compares = rule.counting.what == Counted::NewShadow || rule.criteria.iter().any(Criterion::needs_before);
+    let compares = rule.counting.what == CountedTime::NewShadow || rule.criteria.iter().any(Criterion::needs_before);
     if compares && rule.compare == Some(CompareWith::Before) && site.before.is_none() {
         needs.push("the state before, with which it compares".to_owned());
     }

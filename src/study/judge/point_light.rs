@@ -1,7 +1,7 @@
 //! The light of a receiver on all days, as rules count it.
 
 use crate::judgement::{DayCount, LitSpell, ReceiverSpells, spells_of};
-use crate::rules::{Counted, DayLight, ResolvedRule, RuleDay, RuleError, Ruling, Spell, Verdict, merged, without};
+use crate::rules::{CountedTime, DayLight, ResolvedRule, RuleDay, RuleError, Ruling, Spell, Verdict, merged, without};
 
 /// Of one receiver, each day by itself.
 #[derive(Clone, Debug)]
@@ -101,15 +101,15 @@ impl CountedLight {
         let of = |light: DayLight<'_>| {
             let day = light.day;
             match rule.counting.what {
-                Counted::Sun => DayCount {
+                CountedTime::Sun => DayCount {
                     now_secs: tally(light.lit, day),
                     before_secs: light.before.map(|before| tally(before, day)),
                 },
-                Counted::Shadow => DayCount {
+                CountedTime::Shadow => DayCount {
                     now_secs: tally(&without(light.open, light.lit), day),
                     before_secs: light.before.map(|before| tally(&without(light.open, before), day)),
                 },
-                Counted::NewShadow => {
+                CountedTime::NewShadow => {
                     let own = || without(light.before.unwrap_or_default(), light.lit);
                     let new = light.newly_shaded.map_or_else(own, <[Spell]>::to_vec);
                     DayCount { now_secs: tally(&new, day), before_secs: None }

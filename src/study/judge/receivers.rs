@@ -31,8 +31,8 @@ pub(super) struct ShadedSpells {
     pub(super) lit: Vec<Vec<Spell>>,
 }
 
-/// What is found of all receivers.
-pub(super) struct Found {
+/// All receivers, judged.
+pub(super) struct JudgedReceivers {
     pub(super) receivers: Vec<(ReceiverRuling, ShadedReceiver)>,
     /// Of a rule of windows, in the site's order.
     pub(super) windows: Vec<WindowLight>,
@@ -51,7 +51,7 @@ impl Judging<'_> {
 }
 
 /// All receivers, in the site's order.
-pub(super) fn found(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<Found, StudyError> {
+pub(super) fn found(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<JudgedReceivers, StudyError> {
     match &judging.rule.receiver {
         RuleReceiver::Area { .. } => of_areas(judging, steps),
         RuleReceiver::Facade => of_facades(judging, steps),
@@ -60,7 +60,7 @@ pub(super) fn found(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<
     }
 }
 
-fn of_areas(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<Found, StudyError> {
+fn of_areas(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<JudgedReceivers, StudyError> {
     let site = judging.site;
     let states: Vec<_> = std::iter::once(&site.now).chain(judging.before).collect();
     let searches = judging.states(&reach_of(&site.areas, &states));
@@ -75,10 +75,10 @@ fn of_areas(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<Found, S
         }
         receivers.push((receiver, ShadedReceiver { parts, wall: None }));
     }
-    Ok(Found { receivers, windows: Vec::new() })
+    Ok(JudgedReceivers { receivers, windows: Vec::new() })
 }
 
-fn of_facades(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<Found, StudyError> {
+fn of_facades(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<JudgedReceivers, StudyError> {
     let points: Vec<DVec3> = judging.site.facades.iter().flat_map(|facade| &facade.points).map(|[at, _]| *at).collect();
     let searches = judging.states(&points);
     let mut receivers = Vec::new();
@@ -86,20 +86,20 @@ fn of_facades(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<Found,
         let judged = facade(judging, &searches, of, steps)?;
         receivers.extend(judged.map(|(receiver, light)| told(judging, receiver, &light)));
     }
-    Ok(Found { receivers, windows: Vec::new() })
+    Ok(JudgedReceivers { receivers, windows: Vec::new() })
 }
 
-fn of_bands(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<Found, StudyError> {
+fn of_bands(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<JudgedReceivers, StudyError> {
     let work = judging.site.plot.as_ref().and_then(|plot| BandWork::new(judging, plot));
     let mut receivers = Vec::new();
     for number in 0..work.as_ref().map_or(0, BandWork::count) {
         let band = work.as_ref().map(|work| work.band(number, steps)).transpose()?.flatten();
         receivers.extend(band.map(|(receiver, light)| told(judging, receiver, &light)));
     }
-    Ok(Found { receivers, windows: Vec::new() })
+    Ok(JudgedReceivers { receivers, windows: Vec::new() })
 }
 
-fn of_windows(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<Found, StudyError> {
+fn of_windows(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<JudgedReceivers, StudyError> {
     let lights = windows(judging, steps)?;
     let mut receivers = Vec::new();
     for (window, WindowLight { spot, light }) in judging.site.windows.iter().zip(&lights) {
@@ -121,7 +121,7 @@ fn of_windows(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<Found,
         let (receiver, shaded) = told(judging, receiver, light);
         receivers.push((receiver, ShadedReceiver { wall: wall_plane(spot), ..shaded }));
     }
-    Ok(Found { receivers, windows: lights })
+    Ok(JudgedReceivers { receivers, windows: lights })
 }
 
 /// A receiver of points, with the spells of the days that are told.
@@ -153,7 +153,7 @@ pub(super) fn deciding_day(judging: &Judging<'_>, receiver: &ReceiverRuling) -> 
     let date = receiver.ruling.deciding.and_then(|at| receiver.ruling.findings[at].date);
     let of_date = date.and_then(|date| days.iter().position(|day| day.date == date));
     let counted = receiver.counts.iter().enumerate();
-    let of_sun = judging.rule.counting.what == crate::rules::Counted::Sun;
+    let of_sun = judging.rule.counting.what == crate::rules::CountedTime::Sun;
     of_date.unwrap_or_else(|| {
         let by = |(_, count): &(usize, &crate::judgement::DayCount)| {
             if of_sun { count.now_secs } else { -count.now_secs }

@@ -27,7 +27,7 @@ pub(super) struct AreaSpot {
 
 /// What is summed over an area.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Summed {
+pub(super) enum SumKind {
     /// The part of it where the number is not below 0.
     Part,
     /// The number itself.
@@ -59,8 +59,8 @@ pub(super) struct Samples {
     middles: HashMap<(u32, u32), u32>,
 }
 
-/// What a point has of what is asked.
-pub(super) type Valuing<'a> = &'a (dyn Fn(&AreaSpot) -> Result<Vec<f64>, SunError> + Sync);
+/// The numbers asked of a point, in their order.
+pub(super) type SpotFunction<'a> = &'a (dyn Fn(&AreaSpot) -> Result<Vec<f64>, SunError> + Sync);
 
 impl Samples {
     /// With triangles whose sides are no longer than `longest_m`.
@@ -111,7 +111,7 @@ impl Samples {
     }
 
     /// Asks the points that are new.
-    pub(super) fn ask(&mut self, value: Valuing<'_>, steps: &mut Steps<'_, '_>) -> Result<(), StudyError> {
+    pub(super) fn ask(&mut self, value: SpotFunction<'_>, steps: &mut Steps<'_, '_>) -> Result<(), StudyError> {
         const TOGETHER: usize = 512;
         while self.values.len() < self.spots.len() {
             let from = self.values.len();
@@ -128,15 +128,15 @@ impl Samples {
     }
 
     /// The sums as they are known now.
-    pub(super) fn sums(&self, kinds: &[Summed]) -> AreaSums {
+    pub(super) fn sums(&self, kinds: &[SumKind]) -> AreaSums {
         let of = |number: usize| -> (f64, f64) {
             let kind = kinds[number];
             let leaf = |leaf: &Leaf| {
                 let three = self.of_leaf(leaf.corners, number);
                 let error = match kind {
                     _ if !is_open(kind, three) => 0.0,
-                    Summed::Part => leaf.changed.get(number).copied().unwrap_or(leaf.m2 / 2.0),
-                    Summed::Number => leaf.changed.get(number).copied().unwrap_or(leaf.m2 * spread(three)),
+                    SumKind::Part => leaf.changed.get(number).copied().unwrap_or(leaf.m2 / 2.0),
+                    SumKind::Number => leaf.changed.get(number).copied().unwrap_or(leaf.m2 * spread(three)),
                 };
                 (leaf.m2 * part(kind, three), error)
             };
@@ -150,8 +150,8 @@ impl Samples {
     /// are `most` points.
     pub(super) fn refine(
         &mut self,
-        kinds: &[Summed],
-        value: Valuing<'_>,
+        kinds: &[SumKind],
+        value: SpotFunction<'_>,
         (allowed, most): (&dyn Fn(&AreaSums, usize) -> f64, usize),
         steps: &mut Steps<'_, '_>,
     ) -> Result<AreaSums, StudyError> {
@@ -167,7 +167,8 @@ impl Samples {
                 break;
             }
             // what all triangles may keep that are not split any more is the half of what is allowed
-            let kept: Vec<f64> = (0..kinds.len()).map(|number| allowed[number] / 2.0 / self.open(kinds, number)).collect();
+            let kept: Vec<f64> =
+                (0..kinds.len()).map(|number| allowed[number] / 2.0 / self.open(kinds, number)).collect();
             let leaves = std::mem::take(&mut self.leaves);
             let is_split = |leaf: &Leaf| {
                 (0..kinds.len()).any(|number| {
@@ -198,8 +199,8 @@ impl Samples {
     fn split(
         &mut self,
         leaves: Vec<Leaf>,
-        kinds: &[Summed],
-        value: Valuing<'_>,
+        kinds: &[SumKind],
+        value: SpotFunction<'_>,
         steps: &mut Steps<'_, '_>,
     ) -> Result<(), StudyError> {
         let quarters: Vec<[[u32; 3]; 4]> = leaves.iter().map(|leaf| self.quarters(leaf.corners)).collect();
@@ -226,7 +227,11 @@ impl Samples {
 
     /// Splits the triangles around the lowest of a single number, again and again, and returns the point that has it and by
     /// how much the last splits lowered it.
-    pub(super) fn lowest(&mut self, value: Valuing<'_>, steps: &mut Steps<'_, '_>) -> Result<(usize, f64), StudyError> {
+    pub(super) fn lowest(
+        &mut self,
+        value: SpotFunction<'_>,
+        steps: &mut Steps<'_, '_>,
+    ) -> Result<(usize, f64), StudyError> {
         const PASSES: usize = 8;
         const TOGETHER: usize = 12;
         self.ask(value, steps)?;
@@ -239,7 +244,7 @@ impl Samples {
             order.sort_by(|one, other| one.0.total_cmp(&other.0).then(other.1.m2.total_cmp(&one.1.m2)));
             let kept = order.split_off(order.len().min(TOGETHER));
             self.leaves = kept.into_iter().map(|(_, leaf)| leaf).collect();
-            self.split(order.into_iter().map(|(_, leaf)| leaf).collect(), &[Summed::Number], value, steps)?;
+            self.split(order.into_iter().map(|(_, leaf)| leaf).collect(), &[SumKind::Number], value, steps)?;
             let now = self.lowest_spot();
             lowered = [lowered[1], self.values[lowest][0] - self.values[now][0]];
             lowest = now;
@@ -254,17 +259,17 @@ impl Samples {
 }
 
 /// Whether a triangle may be otherwise within than at its corners.
-fn is_open(kind: Summed, three: [f64; 3]) -> bool {
+fn is_open(kind: SumKind, three: [f64; 3]) -> bool {
     match kind {
-        Summed::Part => three.iter().any(|value| *value >= 0.0) && three.iter().any(|value| *value < 0.0),
-        Summed::Number => three.iter().any(|value| *value != three[0]),
+        SumKind::Part => three.iter().any(|value| *value >= 0.0) && three.iter().any(|value| *value < 0.0),
+        SumKind::Number => three.iter().any(|value| *value != three[0]),
     }
 }
 
 /// Whether the number would pass 0 if it changed once more as much as it does in the triangle.
-fn is_near(kind: Summed, three: [f64; 3]) -> bool {
+fn is_near(kind: SumKind, three: [f64; 3]) -> bool {
     let nearest = three.iter().map(|value| value.abs()).fold(f64::INFINITY, f64::min);
-    kind == Summed::Part && nearest <= spread(three)
+    kind == SumKind::Part && nearest <= spread(three)
 }
 
 /// From the lowest to the highest of three.
@@ -274,10 +279,10 @@ fn spread(three: [f64; 3]) -> f64 {
 }
 
 /// The part of a triangle in which a number is not below 0, or the number's mean.
-fn part(kind: Summed, three: [f64; 3]) -> f64 {
+fn part(kind: SumKind, three: [f64; 3]) -> f64 {
     match kind {
-        Summed::Number => three.iter().sum::<f64>() / 3.0,
-        Summed::Part => {
+        SumKind::Number => three.iter().sum::<f64>() / 3.0,
+        SumKind::Part => {
             let [low, middle, high] = sorted(three);
             // the line cuts off the corner that is alone on its side
             let corner = |alone: f64, others: [f64; 2]| alone * alone / ((alone - others[0]) * (alone - others[1]));
