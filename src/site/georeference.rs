@@ -438,15 +438,16 @@ fn map_north<'a>(model: &'a Model, notes: &mut Vec<Message>) -> Option<(&'a Anch
 }
 
 /// For a model far from its origin with an anchor in a map: takes its coordinates as the map's, with the file's own
-/// scale. `None` if the user places the model.
+/// scale, changed as the user's `scale` changes the unit. `None` if the user places the model.
 fn beyond(model: &Model, placement: &Placement, anchor: &Anchor, zero: &AnchoredZero) -> Option<Reference> {
     let (AnchorPoint::Map { scale, .. }, Some((crs, at))) = (&anchor.at, &zero.on_map) else { return None };
     let Some(AnchoredNorth::Map(north)) = zero.north else { return None };
-    let is_free = placement.north_rad.is_none() && placement.position.is_none() && placement.scale.is_none();
+    let is_free = placement.north_rad.is_none() && placement.position.is_none();
     if !is_free || !scale.is_finite() || *scale <= 0.0 {
         return None;
     }
     let unit_m = placement.unit_m(model);
+    let scale = scale * placement.scale.map_or(1.0, |said| said / model.unit_m.unwrap_or(1.0));
     let along = DMat3::from_diagonal(DVec3::new(scale / crs.unit_m(), scale / crs.unit_m(), unit_m));
     let turned = DMat3::from_rotation_z(north) * along * placement.upright(model);
     let map_from_model = DAffine3::from_mat3_translation(turned, *at);

@@ -4,7 +4,7 @@ use super::mutations::survives;
 use super::terrain::{above, notes, read};
 use crate::shared::memory::CountedThread;
 use glam::DVec2;
-use gnomon::formats::{PartKind, ReadOptions};
+use gnomon::formats::{Model, PartKind, ReadOptions};
 
 /// Points over a plane that rises to the east, with a block of building points 6 m above it.
 fn points(is_compressed: bool, classify: bool) -> Vec<u8> {
@@ -78,6 +78,58 @@ fn cut_points_are_refused() {
     let whole = points(false, true);
     let told = read("points.las", &whole[..whole.len() / 2], &ReadOptions::default()).expect_err("it is cut");
     assert!(told.contains("cut off") || told.contains("cannot be read"), "{told}");
+}
+
+/// A point of a class, with its format's usual rest.
+fn point([x, y, z]: [f64; 3], class: u8) -> las::Point {
+    let classification = las::point::Classification::new(class).unwrap();
+    las::Point { x, y, z, classification, gps_time: Some(0.0), ..las::Point::default() }
+}
+
+/// A file of points, in one of the formats of the standard.
+fn file_of(format: u8, records: Vec<las::Vlr>, points: impl IntoIterator<Item = las::Point>) -> Vec<u8> {
+    let mut header = las::Builder::from((1, 4));
+    header.point_format = las::point::Format::new(format).unwrap();
+    let scale = las::Transform { scale: 0.001, offset: 0.0 };
+    header.transforms = las::Vector { x: scale, y: scale, z: scale };
+    header.evlrs = records;
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("points.las");
+    let mut writer = las::Writer::from_path(&path, header.into_header().unwrap()).unwrap();
+    for mut point in points {
+        point.gps_time = point.gps_time.filter(|_| header_has_time(format));
+        writer.write_point(point).unwrap();
+    }
+    writer.close().unwrap();
+    std::fs::read(path).unwrap()
+}
+
+fn header_has_time(format: u8) -> bool {
+    las::point::Format::new(format).unwrap().has_gps_time
+}
+
+/// 50 × 50 m of flat ground at 10 m, of a class.
+fn flat(class: u8) -> impl Iterator<Item = las::Point> {
+    (0..2500).map(move |at| point([f64::from(at % 50), f64::from(at / 50), 10.0], class))
+}
+
+fn count(model: &Model, what: &str) -> Option<u64> {
+    model.left_out.iter().find(|left| left.what == what).map(|left| left.count)
+}
+
+#[test]
+fn what_stands_beyond_the_ground_is_left_out() {
+    let options = ReadOptions { point_classes: vec!["building".to_owned()], ..ReadOptions::default() };
+    let far = |y: u32| point([200.0, f64::from(y), 30.0], 6);
+    let near = point([25.0, 25.0, 20.0], 6);
+    let model =
+        read("some.las", file_of(6, Vec::new(), flat(2).chain((0..50).map(far)).chain([near])), &options).unwrap();
+    assert_eq!(count(&model, "points of class building"), Some(50), "{:?}", model.left_out);
+    assert_eq!(model.parts.len(), 2);
+    // one block and no wall at the border
+    assert!(model.parts[1].positions.iter().all(|at| (20.0..30.0).contains(&at.x)), "{:?}", model.parts[1].positions);
+    let model = read("none.las", file_of(6, Vec::new(), flat(2).chain((0..50).map(far))), &options).unwrap();
+    assert_eq!((model.parts.len(), count(&model, "points of class building")), (1, Some(50)));
 }
 
 /// The numbers of a header by which a decoder takes memory.

@@ -1,7 +1,8 @@
 //! Messages about georeferences that are probably mistakes, or that are not used.
 
 use super::{
-    LONG_LAT, PLACE, STUDY, UTM, anchored, corners, drawing, folder, load, map_anchor, on_map, one, sheet, site_anchor,
+    LONG_LAT, PLACE, STUDY, UTM, anchored, assert_near, corners, drawing, folder, load, map_anchor, on_map, one, sheet,
+    site_anchor, true_drawing, true_sheet,
 };
 use crate::shared::said;
 use glam::DVec3;
@@ -274,4 +275,21 @@ fn a_model_without_an_ending_is_a_model() {
     let path = folder.path().join("site.toml");
     std::fs::write(&path, "[[model]]\npath = \"noending\"\n").expect("a site file");
     assert!(!WrittenSite::read(&path, &Overrides::default()).expect("a site").is_bare_model());
+}
+
+/// `scale` says what a unit is, and not that the model leaves its map: the file's own unit changes nothing.
+#[test]
+fn the_files_own_unit_as_scale_changes_no_corner() {
+    for unit_m in [1.0, 0.001] {
+        let at =
+            AnchorPoint::Map { crs: "EPSG:25832".to_owned(), easting: 0.0, northing: 0.0, height: None, scale: unit_m };
+        let model = || {
+            let anchors = vec![Anchor { at: at.clone(), ..map_anchor(0.0) }];
+            Model { anchors, unit_m: Some(unit_m), ..sheet(true_sheet().map(|corner| corner / unit_m)) }
+        };
+        let own = one("", model()).expect("its own unit");
+        assert_near(&corners(&own.mesh, 0), &true_drawing(), 0.002);
+        let said = one(&format!("scale = {unit_m:?}"), model()).expect("the same unit, said");
+        assert_eq!(corners(&said.mesh, 0), corners(&own.mesh, 0), "{unit_m}");
+    }
 }

@@ -68,7 +68,14 @@ impl PointCells {
         Ok(cells)
     }
 
-    /// The index of a point's cell.
+    /// Whether a point lies over the raster. Beyond it there is no ground that a block could stand on.
+    pub(super) fn has(&self, point: DVec3) -> bool {
+        let from_first = (point.truncate() - self.grid.first) / self.grid.steps[0].x;
+        let (column, row) = (from_first.x.round(), -from_first.y.round());
+        (0.0..self.grid.columns as f64).contains(&column) && (0.0..self.grid.rows as f64).contains(&row)
+    }
+
+    /// The index of a point's cell; only rounding puts a point that the raster has beyond its border.
     fn cell(&self, point: DVec3) -> usize {
         let from_first = (point.truncate() - self.grid.first) / self.grid.steps[0].x;
         let column = (from_first.x.round().max(0.0) as usize).min(self.grid.columns - 1);
@@ -152,7 +159,8 @@ impl PointCells {
         notes
     }
 
-    /// Makes blocks of a class's points: over each cell with such a point, from the ground up to the highest one.
+    /// Makes blocks of a class's points, which the raster has: over each cell with such a point, from the ground up to the
+    /// highest one.
     pub(super) fn blocks(&self, points: &[DVec3]) -> CellBlocks {
         let mut tops = vec![f64::NAN; self.grid.heights.len()];
         for &point in points {

@@ -97,6 +97,14 @@ fn model(path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
             left_out.push(LeftOut { what: format!("points of class {class}"), count: of_class.len() as u64, why });
             continue;
         }
+        let (of_class, beyond): (Vec<DVec3>, Vec<DVec3>) = of_class.into_iter().partition(|point| cells.has(*point));
+        if !beyond.is_empty() {
+            let what = format!("points of class {class}");
+            left_out.push(LeftOut { what, count: beyond.len() as u64, why: "beyond the ground points".to_owned() });
+        }
+        if of_class.is_empty() {
+            continue;
+        }
         let CellBlocks { positions, triangles } = cells.blocks(&of_class);
         sheets.push((format!("{name}/{class}"), positions, triangles, PartKind::Building));
     }
