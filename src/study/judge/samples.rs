@@ -190,7 +190,7 @@ impl Samples {
     }
 
     /// The number of triangles in which a number is open, at least 1.
-    fn open(&self, kinds: &[Summed], number: usize) -> f64 {
+    fn open(&self, kinds: &[SumKind], number: usize) -> f64 {
         let is_open = |leaf: &&Leaf| is_open(kinds[number], self.of_leaf(leaf.corners, number));
         self.leaves.iter().filter(is_open).count().max(1) as f64
     }
