@@ -64,7 +64,7 @@ fn points(file: &str, text: &str) -> Result<Vec<Probe>, SiteError> {
         let probe = point(&fields, probes.len() + 1, &at(line))?;
         if !names.insert(composed(&probe.name).into_owned()) {
             let what = format!("\"{}\" is the name of another point, too", probe.name);
-            return Err(refuse(at(line), message![what; "name each otherwise"]));
+            return Err(refuse(at(line), message![what; "give each its own name"]));
         }
         if probes.len() == MOST_PROBES {
             return Err(refuse(
