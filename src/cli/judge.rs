@@ -36,7 +36,7 @@ pub(super) struct JudgeArgs {
     pub(super) common: Common,
 }
 
-/// The exit status of a verdict: 0 passes, 1 fails or is too close to say, 3 is nothing but a report.
+/// The exit status of a verdict: 0 passes, 1 fails or is close to a limit, 3 only reports.
 fn status(verdict: Verdict) -> ExitCode {
     match verdict {
         Verdict::Pass => ExitCode::SUCCESS,
@@ -69,18 +69,18 @@ pub(super) fn judge(asked: &JudgeArgs) -> anyhow::Result<ExitCode> {
     Ok(status(judgement.verdict))
 }
 
-/// Where rules of the site's own stand.
+/// The folder of the site's own rules.
 pub(super) fn folder_of(site: &Path) -> &Path {
     if site.is_dir() { site } else { site.parent().unwrap_or(Path::new("")) }
 }
 
-/// The file that is read as the rule, if one is: it is no place for a table.
+/// The file that is read as the rule, if there is one; no table may be written over it.
 pub(super) fn rule_file(name: &str, folder: &Path) -> Option<PathBuf> {
     let path = folder.join(if name.ends_with(".toml") { name.to_owned() } else { format!("{name}.toml") });
     path.is_file().then_some(path)
 }
 
-/// `hours=2h` as a rule takes it.
+/// Reads `hours=2h` for a rule's options.
 pub(super) fn chosen(set: &[String]) -> Result<Vec<(&str, &str)>, WrongUse> {
     let mut chosen: Vec<(&str, &str)> = Vec::new();
     for text in set {

@@ -1,4 +1,4 @@
-//! How high may be built on a plot, such that what a rule protects keeps its sun: a raster, a drawing, a solid.
+//! How high may be built on a plot so that what a rule protects keeps its sun: a raster, a drawing, a solid.
 
 use super::parts::{note, note_letters};
 use super::sink::NamedFile;
@@ -19,42 +19,42 @@ use chrono::{NaiveDate, NaiveTime};
 use glam::DVec3;
 use std::path::PathBuf;
 
-/// What is asked besides the site.
+/// The request, besides the site.
 #[derive(Clone, Copy, Debug)]
 pub struct EnvelopeRequest<'a> {
-    /// Where the rule is from.
+    /// The rule's source.
     pub source: &'a RuleSource,
-    /// The rule with everything chosen.
+    /// The rule with all of its options chosen.
     pub rule: &'a ResolvedRule,
     /// The side of a cell, metres.
     pub cell_m: Option<f64>,
-    /// How high something may be where no sun is in the way, metres.
+    /// The greatest height where no sun limits it, metres.
     pub highest_m: f64,
 }
 
-/// What came of it.
+/// The result.
 #[derive(Clone, Debug)]
 pub struct EnvelopeAnswer {
-    /// The files.
+    /// The files that were written.
     pub written: WrittenFiles,
     /// The report in JSON.
     pub report: String,
-    /// The same for people.
+    /// The report as text for people.
     pub table: String,
 }
 
-/// The heights' raster, the drawing twice, the solid twice, and the report.
+/// The names of the files: the raster of heights, the drawing and the solid in two formats each, and the report.
 const FILES: [&str; 6] =
     ["envelope.tif", "envelope.png", "envelope.svg", "envelope.glb", "envelope.obj", "envelope.json"];
 
-/// A ray is kept free by so much, metres, for what numbers of the files are rounded by.
+/// The distance kept below a ray, metres, for the rounding of numbers in the files.
 const FREE_M: f64 = 0.001;
 
 /// Finds how high may be built on a site's plot.
 ///
 /// # Errors
-/// [`DeliverError`]; what cannot be written, and all that the rule needs and the site does not say, before anything is
-/// searched.
+/// [`DeliverError`]. Files that cannot be written, and everything that the rule needs and the site lacks, are reported
+/// before anything is searched.
 pub fn envelope(
     site: &JudgedSite,
     asked: EnvelopeRequest<'_>,
@@ -120,13 +120,13 @@ fn plot<'s>(site: &'s JudgedSite, asked: &EnvelopeRequest<'_>) -> Result<(&'s Ju
     Ok((plot, grid))
 }
 
-/// What stands without the new building: the state before, or else all that there is. It is compared with itself.
+/// What stands without the new building: the state before, or else the only state. It is compared with itself.
 fn without_the_new(site: &JudgedSite) -> JudgedSite {
     let now = site.before.clone().unwrap_or_else(|| site.now.clone());
     JudgedSite { before: Some(now.clone()), now, ..site.clone() }
 }
 
-/// What was chosen where the rule leaves a choice, and what the heights do not say.
+/// Notes on what was chosen where the rule leaves a choice, and on what the heights do not include.
 fn note_choices(
     base: &JudgedSite,
     site: &JudgedSite,
@@ -135,12 +135,12 @@ fn note_choices(
 ) -> Result<(), StudyError> {
     let mut tell_all = |said: &str| tell(on_event, Event::Note(said.to_owned().into()));
     if site.before.is_none() {
-        tell_all("the site says no state before, so all that stands counts as standing, on the plot, too")?;
+        tell_all("the site has no state before, so everything counts as standing, also what is on the plot")?;
     }
     if base.now.ground.kind == GroundKind::Terrain {
-        tell_all("heights count from the plane of the ground, and not from the terrain")?;
+        tell_all("heights are measured from the plane of the ground, not from the terrain")?;
     }
-    tell_all("of each place the sun stays whose rays pass highest over the plot, as much as the rule asks")?;
+    tell_all("each place keeps as much sun as the rule asks, that whose rays pass highest over the plot")?;
     if let RuleReceiver::Window { group, all_of, .. } = &rule.receiver {
         let is_shared = group.is_some_and(|group| matches!(group, Grouping::Room | Grouping::Dwelling));
         if is_shared || rule.dwelling.is_some() || !all_of.is_empty() {
@@ -149,7 +149,7 @@ fn note_choices(
     }
     if rule.criteria.len() > 1 && (rule.any || rule.criteria.iter().any(|criterion| criterion.grade.is_some())) {
         tell_all(
-            "of the rule's limits the first one is kept: the lowest grade, or the first of those of which one is enough",
+            "only one of the rule's limits is kept: the lowest grade, or the first of limits of which one is enough",
         )?;
     }
     Ok(())
@@ -161,11 +161,11 @@ fn note_lacking(told: &[KeptReceiver], on_event: &mut OnEvent<'_>) -> Result<(),
         return Ok(());
     }
     let names = crate::message::few(lacking);
-    let said = format!("{names} have less sun than the rule asks already, and keep all that they have");
+    let said = format!("already less sun than the rule asks, so all of it is kept: {names}");
     tell(on_event, Event::Note(said.into()))
 }
 
-/// What is kept, as it is told.
+/// What is kept, as it is reported.
 fn told(things: &[KeptThing], outcome: &EnvelopeOutcome, ground: f64) -> Vec<KeptReceiver> {
     let of = |(thing, kept): (&KeptThing, &study::envelope::KeptOf)| KeptReceiver {
         name: kept.name.clone(),
@@ -183,7 +183,7 @@ fn told(things: &[KeptThing], outcome: &EnvelopeOutcome, ground: f64) -> Vec<Kep
     things.iter().zip(&outcome.kept).map(of).collect()
 }
 
-/// Metres above the ground, a little below the rays; NaN beside the plot.
+/// Heights above the ground, metres, slightly below the rays; NaN outside the plot.
 fn heights(room: &Headroom, ground: f64, highest_m: f64) -> Vec<f32> {
     let of = |(top, inside): (&f64, &bool)| match inside {
         true => (top - ground - FREE_M).clamp(0.0, highest_m) as f32,
@@ -192,7 +192,7 @@ fn heights(room: &Headroom, ground: f64, highest_m: f64) -> Vec<f32> {
     room.top.iter().zip(&room.inside).map(of).collect()
 }
 
-/// The points of the drawing: of more than some hundred, as on areas, none.
+/// The points of the drawing; none if there are several hundred, as on areas.
 fn points(told: &[KeptReceiver]) -> Vec<DVec3> {
     const MOST: usize = 300;
     let points: Vec<DVec3> = told.iter().flat_map(|of| &of.places).flat_map(|place| &place.points).copied().collect();
@@ -209,7 +209,7 @@ fn dates(days: &[RuleDay]) -> String {
     }
 }
 
-/// The files but the report. Where nothing may stand anywhere there is no solid.
+/// The files except the report. If nothing may stand anywhere, there is no solid.
 fn drawn(map: &EnvelopeMap, on_event: &mut OnEvent<'_>) -> Result<Vec<NamedFile>, DeliverError> {
     tell(on_event, Event::Stage("picture"))?;
     let drawing = figure::heights(map)?;

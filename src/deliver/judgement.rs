@@ -1,4 +1,4 @@
-//! What a rule says of a site, as an answer and a table.
+//! Judging a site by a rule: the answer and a table.
 
 use super::{DeliverError, Sink, WrittenFiles};
 use crate::export::judgement as encode;
@@ -9,12 +9,12 @@ use crate::site::JudgedSite;
 use crate::study::{self, Event, OnEvent, tell};
 use std::path::PathBuf;
 
-/// By which rule a site is judged.
+/// The rule by which a site is judged.
 #[derive(Clone, Copy, Debug)]
 pub struct JudgeRequest<'a> {
-    /// Where the rule is from.
+    /// The rule's source.
     pub source: &'a RuleSource,
-    /// The rule with everything chosen.
+    /// The rule with all of its options chosen.
     pub rule: &'a ResolvedRule,
     /// The name of the table with one line per receiver. Without a name there is no table.
     pub table: Option<&'a PathBuf>,
@@ -23,9 +23,9 @@ pub struct JudgeRequest<'a> {
 /// The verdict.
 #[derive(Clone, Debug)]
 pub struct JudgeAnswer {
-    /// The verdicts, with all that they rest on.
+    /// The verdicts, with everything that they rest on.
     pub judgement: Judgement,
-    /// What was noted of the models and of the judging.
+    /// Notes on the models and on how they were judged.
     pub notes: Vec<Message>,
     /// The files that were written.
     pub written: WrittenFiles,
@@ -34,8 +34,8 @@ pub struct JudgeAnswer {
 /// Judges a site by a rule.
 ///
 /// # Errors
-/// [`DeliverError`]; what cannot be written, and all that the rule needs and the site does not say, before anything is
-/// searched.
+/// [`DeliverError`]. Files that cannot be written, and everything that the rule needs and the site lacks, are reported
+/// before anything is searched.
 pub fn judge(
     site: &JudgedSite,
     asked: JudgeRequest<'_>,

@@ -1,4 +1,4 @@
-//! The answer: a verdict for each receiver, each group and the whole, with all that it rests on.
+//! The answer: a verdict for each receiver, each group and the whole, with everything that it rests on.
 
 use super::lit_spell::LitSpell;
 use crate::choice::words;
@@ -9,23 +9,23 @@ use glam::DVec3;
 /// What a rule says of a site.
 #[derive(Clone, Debug)]
 pub struct Judgement {
-    /// Where the rule is from.
+    /// The rule's source.
     pub source: RuleSource,
-    /// The rule with everything chosen.
+    /// The rule with all of its options chosen.
     pub rule: ResolvedRule,
-    /// Its days, set after set.
+    /// The rule's days, one set after the other.
     pub days: Vec<RuleDay>,
-    /// For each of them the verdict of all receivers together.
+    /// For each day, the verdict over all receivers.
     pub day_verdicts: Vec<Verdict>,
-    /// The whole.
+    /// The verdict over everything.
     pub verdict: Verdict,
-    /// The lowest grade that all reach, where the rule has grades.
+    /// The lowest grade that is reached, if the rule has grades.
     pub grade: Option<String>,
-    /// What is judged, in the site's order.
+    /// The receivers, in the site's order.
     pub receivers: Vec<ReceiverRuling>,
-    /// Rooms, dwellings and the house, where the rule speaks of them.
+    /// Rooms, dwellings and the house, if the rule judges them.
     pub groups: Vec<GroupRuling>,
-    /// What the user should know of how it was judged.
+    /// Notes on how the site was judged.
     pub notes: Vec<Message>,
 }
 
@@ -38,7 +38,7 @@ pub enum JudgedThing {
     Window,
     /// A façade.
     Facade,
-    /// The plane around a plot, from one distance to another.
+    /// A band of the plane around a plot, between two distances.
     Band,
 }
 
@@ -58,23 +58,23 @@ pub struct ReceiverRuling {
     pub kind: JudgedThing,
     /// The verdict with its findings.
     pub ruling: Ruling,
-    /// Of an area.
+    /// The size, if it is an area.
     pub area: Option<AreaSize>,
-    /// Where it is judged: of a window its points; of others the spot that decides.
+    /// The points where it is judged: all points of a window, the deciding one of anything else.
     pub points: Vec<DVec3>,
-    /// Its outward normal at that spot, where it has one.
+    /// Its outward normal there, if it has one.
     pub normal: Option<DVec3>,
-    /// Its room, where the site says one.
+    /// Its room, if the site has it.
     pub room: Option<String>,
-    /// Its dwelling, where the site says one.
+    /// Its dwelling, if the site has it.
     pub dwelling: Option<String>,
-    /// What its room is used for, where the site says it.
+    /// The use of its room, if the site has it.
     pub usage: Option<String>,
-    /// For each of the rule's days what is counted at its points.
+    /// For each of the rule's days, what is counted at its points.
     pub counts: Vec<DayCount>,
-    /// The spells at its points on the days that are told.
+    /// The spells at its points on the days that are reported.
     pub spells: Vec<ReceiverSpells>,
-    /// Who takes the sun on the deciding day, the greatest taker first; empty where nobody asked.
+    /// Who takes the sun on the deciding day, the greatest taker first; empty if that was not searched.
     pub takers: Vec<Taker>,
 }
 
@@ -83,44 +83,44 @@ pub struct ReceiverRuling {
 pub struct AreaSize {
     /// Square metres.
     pub m2: f64,
-    /// At how many points light was searched.
+    /// The number of points at which light was searched.
     pub points: usize,
-    /// To so much, up and down, the part that keeps the rule is known, square metres.
+    /// The error of the part that keeps the rule, up or down, square metres.
     pub error_m2: f64,
 }
 
-/// What is counted at a receiver's points on a day, by the rule's own way of counting.
+/// What the rule counts at a receiver's points on a day.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DayCount {
     /// Seconds in the state that is judged.
     pub now_secs: i64,
-    /// Seconds in the state before, where there is one.
+    /// Seconds in the state before, if there is one.
     pub before_secs: Option<i64>,
 }
 
 /// The spells of one day.
 #[derive(Clone, Debug)]
 pub struct ReceiverSpells {
-    /// Which of the rule's days.
+    /// The index of the day among the rule's days.
     pub day: usize,
-    /// When a sun that counts would shine if nothing stood there.
+    /// When a sun that counts would shine with nothing in its way.
     pub open: Vec<Spell>,
-    /// In the sun, in the state that is judged.
+    /// The spells in the sun, in the state that is judged.
     pub now: Vec<LitSpell>,
-    /// In the sun in the state before, where there is one.
+    /// The spells in the sun in the state before, if there is one.
     pub before: Option<Vec<LitSpell>>,
-    /// In shadow that was sun before, anywhere on an area; where the rule counts it.
+    /// The spells in which any part of an area lies in new shadow, if the rule counts it.
     pub newly_shaded: Option<Vec<Spell>>,
 }
 
 /// A component that takes the sun from a receiver.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Taker {
-    /// By its index in the mesh of the state that is judged.
+    /// Its index in the mesh of the state that is judged.
     pub component: u32,
-    /// Seconds that it takes alone: without it there would be sun.
+    /// The seconds that it takes alone: without it there would be sun.
     pub alone_secs: f64,
-    /// Seconds in which it and others stand before the sun.
+    /// The seconds in which both it and others stand in front of the sun.
     pub with_others_secs: f64,
 }
 
@@ -148,16 +148,16 @@ pub struct GroupRuling {
     pub name: String,
     /// What it is.
     pub kind: GroupKind,
-    /// The dwelling of a room.
+    /// The room's dwelling.
     pub dwelling: Option<String>,
     /// Its verdict.
     pub verdict: Verdict,
-    /// By its spells or by its dwellings, where it is judged so.
+    /// The ruling by its spells or by its dwellings, if it is judged so.
     pub ruling: Option<Ruling>,
-    /// By its rooms, where it is judged so.
+    /// The ruling by its rooms, if it is judged so.
     pub by_rooms: Option<DwellingRuling>,
-    /// The names of the receivers, or of the groups, of which it is.
+    /// The names of its members: receivers or groups.
     pub of: Vec<String>,
-    /// Of a dwelling with uses: each use, and what is counted for it on the first day, seconds.
+    /// For a dwelling with uses: each use, and the seconds that are counted for it on the first day.
     pub uses: Vec<(String, i64)>,
 }

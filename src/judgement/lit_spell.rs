@@ -11,9 +11,9 @@ pub enum SpellBound {
     Horizon,
     /// The sun is behind the receiver's plane, or in it.
     Behind,
-    /// The sun is there, but so low, or so near the receiver's plane, that the rule does not count it.
+    /// The sun is not counted by the rule: it is too low, or too near the receiver's plane.
     Cut,
-    /// The opening of the wall before a point inside ends.
+    /// The wall around the opening in front of a point inside.
     Reveal,
     /// The ground: the point lies below it.
     Ground,
@@ -24,30 +24,32 @@ pub enum SpellBound {
 /// A spell in the sun.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LitSpell {
-    /// From its first second to the first no longer in it.
+    /// The spell, from its first second to the first second after it.
     pub spell: Spell,
-    /// What blocks one second before it.
+    /// What blocks the sun one second before it.
     pub before: SpellBound,
-    /// What blocks at its end.
+    /// What blocks the sun at its end.
     pub after: SpellBound,
 }
 
-/// Two ways to find one moment may differ by so much, seconds: then the nearer cause is kept.
+/// The greatest difference between two ways to find one moment, seconds; within it, the cause that is nearer is kept.
 const SAME_SECS: i64 = 2;
 
-/// The spells without their bounds.
+/// The spells, without what bounds them.
 pub fn spells_of(lit: &[LitSpell]) -> Vec<Spell> {
     lit.iter().map(|lit| lit.spell).collect()
 }
 
-/// The parts of spells that lie in others, in time's order; where these end, `bound` is what ends the sun.
+/// The parts of spells that lie within others, in the order of time. `bound` is what ends the sun where these others
+/// end.
 pub fn clipped(lit: &[LitSpell], within: &[Spell], bound: SpellBound) -> Vec<LitSpell> {
     let within: Vec<LitSpell> =
         within.iter().map(|spell| LitSpell { spell: *spell, before: bound, after: bound }).collect();
     both(lit, &within)
 }
 
-/// When both are lit. What bounds the later beginning and the earlier end is told, and of equals that of the first.
+/// The spells in which both are lit, bounded by what bounds the later beginning and the earlier end; the first one's
+/// where they are equal.
 pub fn both(one: &[LitSpell], other: &[LitSpell]) -> Vec<LitSpell> {
     let (mut at, mut with) = (0, 0);
     let mut found = Vec::new();

@@ -1,5 +1,5 @@
-//! What judging a site by a rule comes to, and the geometry of what is judged: where points lie in windows, along plots and
-//! on areas. The light at these points is found by `study::judge`.
+//! The answer of judging a site by a rule, and the geometry of what is judged: where points lie in windows, along plots
+//! and on areas. The light at these points is found by `study::judge`.
 
 mod answer;
 mod lit_spell;

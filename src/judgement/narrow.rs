@@ -1,15 +1,15 @@
-//! Where an area is narrower than a rule counts.
+//! Finds where an area is narrower than what a rule counts.
 
 use glam::DVec2;
 
-/// From place to place along a border the width is asked, metres.
+/// The distance between the places along a border at which the width is measured, metres.
 const SPACING_M: f64 = 0.25;
 
-/// A corner with a wider angle than this does not make what lies beside it narrow, degrees.
+/// A corner with a wider angle than this does not make the parts beside it narrow, degrees.
 const SHARP_DEG: f64 = 45.0;
 
-/// A place at which an area is narrower than so many metres, and how wide it is there: across, square to its border. A corner
-/// makes it narrow where it is sharper than 45°.
+/// Finds a place at which an area is narrower than this many metres, and its width there, measured across the area and
+/// square to its border. A corner makes it narrow if it is sharper than 45°.
 pub fn narrow_place(rings: &[Vec<DVec2>], least_m: f64) -> Option<(DVec2, f64)> {
     if least_m <= 0.0 {
         return None;
@@ -19,7 +19,7 @@ pub fn narrow_place(rings: &[Vec<DVec2>], least_m: f64) -> Option<(DVec2, f64)> 
         .flat_map(|ring| (0..ring.len()).map(|at| [ring[at], ring[(at + 1) % ring.len()]]))
         .filter(|[from, to]| from.distance(*to) > 1e-6)
         .collect();
-    // what is measured to a millimetre is not narrow by its rounding
+    // a width that is measured to a millimetre is not narrow because of its rounding
     let least_m = least_m - 1e-3;
     let mut narrowest: Option<(DVec2, f64)> = None;
     for [from, to] in &sides {
@@ -42,7 +42,7 @@ pub fn narrow_place(rings: &[Vec<DVec2>], least_m: f64) -> Option<(DVec2, f64)> 
     narrowest
 }
 
-/// How far a side lies from a point in a direction.
+/// The distance from a point to a side in a direction.
 fn across(point: DVec2, direction: DVec2, [from, to]: &[DVec2; 2]) -> Option<f64> {
     let side = to - from;
     let cross = direction.perp_dot(side);

@@ -1,35 +1,35 @@
-//! Where a window is judged, and the opening through which a point inside sees the sun.
+//! The points where a window is judged, and the opening through which a point inside sees the sun.
 
 use crate::rules::{RuleReceiver, WindowPoint};
 use crate::site::JudgedWindow;
 use glam::DVec3;
 
-/// Nearer to the sill a point would lie on the board itself, metres.
+/// The least height of a point above the sill, metres: a lower one would lie on the sill itself.
 const ABOVE_BOARD_M: f64 = 0.001;
 
 /// A wall thinner than this has no reveal, metres.
 const FLAT_M: f64 = 1e-6;
 
-/// Where a window is judged.
+/// The points where a window is judged.
 #[derive(Clone, Debug)]
 pub struct WindowSpot {
-    /// Its points; it is lit where all of them are.
+    /// Its points; it is lit while all of them are.
     pub points: Vec<DVec3>,
-    /// Of a point inside the wall.
+    /// The opening, if the point is inside the wall.
     pub through: Option<Opening>,
 }
 
-/// An opening of a wall, as a point inside sees it.
+/// An opening of a wall, as it is seen from a point inside.
 #[derive(Clone, Debug)]
 pub struct Opening {
-    /// Its corners in the wall's outer plane, in the order of the window's.
+    /// Its corners in the wall's outer plane, in the order of the window's corners.
     pub corners: [DVec3; 4],
-    /// Away from the room, a unit vector.
+    /// The unit normal, away from the room.
     pub outward: DVec3,
 }
 
 impl Opening {
-    /// The planes through a point and the opening's sides, by their normals: what lies before all of them, and before the
+    /// The normals of the planes through a point and the opening's sides: what lies in front of all of them, and of the
     /// wall, is seen through the opening.
     pub fn planes_from(&self, point: DVec3) -> Vec<DVec3> {
         let middle = self.corners.iter().sum::<DVec3>() / 4.0 - point;
@@ -42,17 +42,17 @@ impl Opening {
             let normal = from.cross(to).normalize_or_zero();
             if normal.dot(middle) < 0.0 { -normal } else { normal }
         };
-        // a point in a side's line sees along it, and that side hides nothing
+        // a point in line with a side sees along it, so that side hides nothing
         (0..4).map(side).filter(|normal| *normal != DVec3::ZERO).collect()
     }
 
-    /// How far along its normal the wall's outer plane lies, metres.
+    /// The distance of the wall's outer plane from the origin, along the normal, metres.
     pub fn plane_m(&self) -> f64 {
         self.outward.dot(self.corners[0])
     }
 }
 
-/// What a rule needs of a window and the site does not say, each by its name in a sentence.
+/// What a rule needs of a window and the site does not have, each as a part of a sentence.
 pub fn needed_of_window(receiver: &RuleReceiver, window: &JudgedWindow) -> Vec<&'static str> {
     let RuleReceiver::Window { at, floor_m, .. } = receiver else { return Vec::new() };
     let mut needed = Vec::new();
@@ -65,7 +65,7 @@ pub fn needed_of_window(receiver: &RuleReceiver, window: &JudgedWindow) -> Vec<&
     needed
 }
 
-/// Where a rule judges a window; nothing for a rule of something else, or where the site does not say what is needed.
+/// The points where a rule judges a window; `None` if it does not judge windows, or if the site lacks what it needs.
 pub fn window_spot(receiver: &RuleReceiver, window: &JudgedWindow) -> Option<WindowSpot> {
     let RuleReceiver::Window { at, floor_m, sill_m, .. } = receiver else { return None };
     let [left, right, head_right, head_left] = window.corners;
@@ -78,11 +78,11 @@ pub fn window_spot(receiver: &RuleReceiver, window: &JudgedWindow) -> Option<Win
         None if *floor_m > 0.0 => return None,
         _ => sill.z + sill_m,
     };
-    // within the plane of the glass, which may lean
+    // upward within the plane of the glass, which may lean
     let raised = |from: DVec3| if up.z > 1e-6 { from + up * ((least_z - from.z).max(0.0) / up.z) } else { from };
     let on_glass = |sill_point: DVec3, middle: DVec3| match (is_middle, is_raised) {
         (true, false) => middle,
-        // a rule that counts from floor and sill means the lowest point that both allow
+        // a rule that counts from both floor and sill means the lowest point that both allow
         (true, true) | (false, true) => raised(sill_point),
         (false, false) => sill_point,
     };

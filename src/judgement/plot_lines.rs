@@ -5,16 +5,16 @@ use crate::site::JudgedPlot;
 use glam::DVec2;
 use std::f64::consts::PI;
 
-/// Round a corner that turns by more than this, radians, lines go even where they go straight on elsewhere: they would meet
-/// far away.
+/// A corner that turns by more than this, radians, is rounded even if lines are to go straight on: they would meet far
+/// away.
 const LONGEST_MITRE: f64 = 0.75 * PI;
 
 /// A place around a plot.
 #[derive(Clone, Copy, Debug)]
 pub struct PlotSpot {
-    /// On the plan.
+    /// Its position in plan.
     pub at: DVec2,
-    /// How much the plane is raised there, metres.
+    /// The height by which the plane is raised there, metres.
     pub raised_m: f64,
 }
 
@@ -26,7 +26,7 @@ struct DeemedSide {
     raised_m: f64,
 }
 
-/// The border from which distances are measured: the plot's, moved outward where a road adjoins.
+/// The border from which distances are measured: the plot's border, moved outward where a road adjoins.
 #[derive(Clone, Debug)]
 pub struct DeemedBorder {
     sides: Vec<DeemedSide>,
@@ -54,7 +54,7 @@ impl DeemedBorder {
             let end = meeting(at, after);
             sides.push(DeemedSide { from, to: end.unwrap_or(to), raised_m: raised(at) });
             if end.is_none() {
-                // sides in one line that are moved by different ways: a step
+                // sides in one line that are moved by different distances make a step
                 let next = moved(after)[0];
                 sides.push(DeemedSide { from: to, to: next, raised_m: raised(at).min(raised(after)) });
             }
@@ -113,15 +113,15 @@ impl DeemedBorder {
         distance >= band.from_m - 1e-6 && distance <= band.to_m + 1e-6
     }
 
-    /// A place that lies a little inside of a band's inner line, put onto it; others stay.
+    /// Moves a place that lies slightly inside a band's inner line onto it; other places stay.
     pub fn onto(&self, band: Band, at: DVec2) -> DVec2 {
         let (away, outward) = self.nearest(at);
         let lacking = band.from_m - if self.is_inside(at) { -away } else { away };
         if lacking > 0.0 && !self.is_inside(at) { at + outward * lacking } else { at }
     }
 
-    /// Places of a band: its inner line and lines further out, up to so far, each `spacing_m` or less from the next along it
-    /// near the border, and further out a part of the distance.
+    /// The places of a band, on its inner line and on lines further out, up to this distance. Each is at most
+    /// `spacing_m` from the next one along a line near the border, and farther out at most a part of the distance.
     pub fn spots(&self, band: Band, reach_m: f64, spacing_m: f64) -> Vec<PlotSpot> {
         let mut spots = Vec::new();
         let far = band.to_m.min(band.from_m.max(reach_m));
@@ -135,11 +135,11 @@ impl DeemedBorder {
         }
     }
 
-    /// Places on the line at a distance.
+    /// The places on the line at a distance.
     fn line(&self, distance: f64, spacing: f64) -> Vec<PlotSpot> {
         let mut found = Vec::new();
         let mut add = |at: DVec2| {
-            // a reflex corner has no line before it
+            // no line lies in front of a reflex corner
             if self.distance_m(at) >= distance - 1e-6 {
                 found.push(self.spot(at));
             }
@@ -174,7 +174,7 @@ impl DeemedBorder {
     }
 }
 
-/// Both ends of a line, and places between them.
+/// The ends of a line, and places between them.
 fn along([from, to]: [DVec2; 2], spacing: f64, add: &mut impl FnMut(DVec2)) {
     let steps = (from.distance(to) / spacing).ceil().clamp(1.0, 1e5);
     for step in 0..=steps as usize {
@@ -182,7 +182,7 @@ fn along([from, to]: [DVec2; 2], spacing: f64, add: &mut impl FnMut(DVec2)) {
     }
 }
 
-/// Where two lines meet; nothing where they are parallel.
+/// The point where two lines meet; `None` if they are parallel.
 fn meet([from, to]: [DVec2; 2], [other_from, other_to]: [DVec2; 2]) -> Option<DVec2> {
     let (one, other) = (to - from, other_to - other_from);
     let cross = one.perp_dot(other);
@@ -192,7 +192,7 @@ fn meet([from, to]: [DVec2; 2], [other_from, other_to]: [DVec2; 2]) -> Option<DV
     Some(from + one * ((other_from - from).perp_dot(other) / cross))
 }
 
-/// Where along a side a place lies, 0 to 1 between its ends.
+/// The position of a place along a side, 0 to 1 between its ends.
 fn part(side: &DeemedSide, at: DVec2) -> f64 {
     let along = side.to - side.from;
     (at - side.from).dot(along) / along.length_squared()

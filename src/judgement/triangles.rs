@@ -1,18 +1,18 @@
-//! Areas as triangles, exactly.
+//! Areas as triangles that cover them exactly.
 
 use glam::{DVec2, DVec3};
 
-/// A slab of a polygon thinner than this has no area that counts, metres.
+/// A slab of a polygon that is thinner than this is left out, metres.
 const THIN_M: f64 = 1e-9;
 
 /// A triangle of an area.
 #[derive(Clone, Copy, Debug)]
 pub struct PartTriangle {
-    /// Its corners; of an area on the ground their z is 0.
+    /// Its corners; their z is 0 if the area lies on the ground.
     pub corners: [DVec3; 3],
     /// Its area, square metres.
     pub m2: f64,
-    /// Upward from its plane, of a face of a component.
+    /// The upward normal, if it is a face of a component.
     pub normal: Option<DVec3>,
 }
 
@@ -26,7 +26,7 @@ impl PartTriangle {
     }
 }
 
-/// The triangles of what lies within an odd number of rings, at height 0. They cover it exactly and do not overlap.
+/// The triangles, at height 0, of what lies within an odd number of rings. They cover it exactly and do not overlap.
 pub fn triangles(rings: &[Vec<DVec2>]) -> Vec<PartTriangle> {
     let sides: Vec<[DVec2; 2]> = rings
         .iter()

@@ -11,7 +11,7 @@ use std::cmp::Ordering;
 pub enum Verdict {
     /// The rule is kept.
     Pass,
-    /// Undecided: the number is closer to its limit than it is known.
+    /// Undecided: the number differs from its limit by less than its error.
     Close,
     /// The rule is broken.
     Fail,

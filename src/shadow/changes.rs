@@ -1,9 +1,9 @@
 //! When points change between two instants: by halving, with rays in beams.
 //!
-//! Points that lie beside each other are searched together, at most as many as a beam has rays. At the moment in the middle
-//! their rays are parallel and go through the tree as one beam ([`super::rays`]); which points have changed by then decides in
-//! which half each is searched on. Nearness is what counts: with 512 points together the last halvings had wide beams of
-//! points far apart, and the search took ten times as long.
+//! Points that lie beside each other are searched together, at most as many as a beam has rays. At the middle moment
+//! their rays are parallel and go through the tree as one beam ([`super::rays`]); whether a point has changed by then
+//! decides in which half it is searched further. Points must be near each other: with 512 points together, the last
+//! halvings had wide beams of points far apart, and the search took ten times as long.
 
 use super::rays::{RayCaster, Shear};
 use crate::view::Bits;
@@ -12,51 +12,52 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Rows of a plan that one task searches.
+/// The rows of a plan that one task searches.
 const BAND: usize = 32;
-/// Cells are searched in squares of so many a side, as many as a beam has rays.
+/// The side of the squares of cells that are searched together, with as many cells as a beam has rays.
 const SIDE: usize = 8;
-/// As many cells as a square has.
+/// The number of cells in a square.
 const SQUARE: usize = SIDE * SIDE;
 
-/// A point that is in shadow at one of two instants alone. Places are around the casters' origin.
+/// A point that is in shadow at only one of two instants. Its places are relative to the casters' origin.
 pub(super) struct OpenPoint {
-    /// Its number among those that are asked.
+    /// Its number among the searched points.
     pub(super) number: usize,
     /// Where it is judged.
     pub(super) at: DVec3,
-    /// Of the side on which it is judged.
+    /// The normal of the side on which it is judged.
     pub(super) normal: DVec3,
-    /// Where it is judged while the sun stands on the other side; none where it is in shadow then.
+    /// Where it is judged while the sun is on the other side; `None` if it is in shadow then.
     pub(super) behind: Option<DVec3>,
     /// Whether it is in shadow at the first instant.
     pub(super) is_shaded: bool,
 }
 
-/// When a point changed between two instants.
+/// The time at which a point changed between two instants.
 #[doc(hidden)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LightChange {
-    /// The point's number: of a plan's cells counted along the rows.
+    /// The point's number; cells of a plan are counted along the rows.
     pub number: usize,
     /// Whether it was in shadow at the first instant.
     pub was_shaded: bool,
-    /// The last moment at which it was as it was then, counted from the first instant.
+    /// The last moment at which it was as at the first instant, counted from that.
     pub moment: u32,
 }
 
-/// Cells that are in shadow at one of two instants alone.
+/// Cells that are in shadow at only one of two instants.
 #[doc(hidden)]
 #[derive(Clone, Copy, Debug)]
 pub struct DifferingCells<'a> {
     /// The shadow at both instants.
     pub ends: [&'a Bits; 2],
-    /// To the sun at the moments, from the one instant to the other.
+    /// The directions to the sun at the moments, from one instant to the other.
     pub suns: &'a [DVec3],
 }
 
 impl DifferingCells<'_> {
-    /// When the cells of some rows change. Of a cell, by row and column, `judged` says where that is and the normal there.
+    /// When the cells of some rows change. `judged` returns where a cell, given by row and column, is judged, and the
+    /// normal there.
     pub(super) fn search(
         &self,
         rows: Range<usize>,
@@ -80,7 +81,8 @@ impl DifferingCells<'_> {
         bands.par_iter().map(of_band).collect::<Vec<_>>().concat()
     }
 
-    /// Tells the cells that differ, square by square: row, column, and whether they are in shadow at the first instant.
+    /// Calls back for the cells that differ, square by square: row, column, and whether the cell is in shadow at the
+    /// first instant.
     fn each_square(&self, rows: Range<usize>, mut tell: impl FnMut(ArrayVec<(usize, usize, bool), SQUARE>)) {
         let [before, after] = self.ends;
         let in_row = before.in_row();
@@ -104,7 +106,7 @@ impl DifferingCells<'_> {
     }
 }
 
-/// The search for changes of points that are added one after the other, neighbours beside each other.
+/// The search for changes of points that are added one after the other, neighbours together.
 pub(super) struct ChangeSearch<'a> {
     rays: &'a RayCaster,
     suns: &'a [DVec3],
@@ -114,12 +116,12 @@ pub(super) struct ChangeSearch<'a> {
 }
 
 impl<'a> ChangeSearch<'a> {
-    /// The suns are those of the moments, from the one instant to the other.
+    /// `suns` are the directions at the moments, from one instant to the other.
     pub(super) fn new(rays: &'a RayCaster, suns: &'a [DVec3]) -> ChangeSearch<'a> {
         ChangeSearch { rays, suns, open: ArrayVec::new(), found: Vec::new(), cast: 0 }
     }
 
-    /// Adds a point, beside those that were added since the last search.
+    /// Adds a point, which should lie beside those that were added since the last search.
     pub(super) fn add(&mut self, point: OpenPoint) {
         if self.open.is_full() {
             self.search();
@@ -134,12 +136,12 @@ impl<'a> ChangeSearch<'a> {
         self.halve(&open, &all, [0, self.suns.len().saturating_sub(1)]);
     }
 
-    /// The changes, and how many rays were cast.
+    /// The changes, and the number of rays that were cast.
     pub(super) fn finish(self) -> (Vec<LightChange>, u64) {
         (self.found, self.cast)
     }
 
-    /// Some points change between two moments: finds in which half each of them does.
+    /// Finds in which half each of some points changes, which change between two moments.
     fn halve(&mut self, open: &[OpenPoint], asked: &[u8], [from, to]: [usize; 2]) {
         if to - from < 2 {
             self.found.extend(asked.iter().map(|at| open[usize::from(*at)].changed(from)));
@@ -159,7 +161,7 @@ impl<'a> ChangeSearch<'a> {
         }
     }
 
-    /// Which of some points are in shadow: a bit for each.
+    /// Whether each of some points is in shadow, as a bit for each.
     fn shaded(&mut self, open: &[OpenPoint], asked: &[u8], to_sun: DVec3) -> u64 {
         let mut shaded = 0;
         let mut origins = ArrayVec::<DVec3, { RayCaster::MOST_RAYS }>::new();
@@ -180,7 +182,7 @@ impl<'a> ChangeSearch<'a> {
 }
 
 impl OpenPoint {
-    /// Where it is judged; none where its side looks away from the sun.
+    /// Where it is judged; `None` if its side faces away from the sun.
     fn judged(&self, to_sun: DVec3) -> Option<DVec3> {
         let facing = self.normal.dot(to_sun);
         if facing > 0.0 { Some(self.at) } else { self.behind.filter(|_| facing < 0.0) }

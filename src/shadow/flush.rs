@@ -1,9 +1,9 @@
 //! Receivers that are flush with the ground, such as lawns, plots and paving in its plane: which of them is seen.
 //!
-//! Whether such a face or the plane is nearer is left to rounding, which decides otherwise from cell to cell, and the same
-//! is true of two faces that lie on each other. The mask does not depend on it, but a picture would show noise. So one rule
-//! says what is seen: where the plane or a flush face is nearest, it is the first flush face that lies there, in the order of
-//! the mesh. What is judged remains what is nearest.
+//! Whether such a face or the plane is nearer depends on rounding, which may differ from cell to cell; so it does for
+//! two faces that lie on each other. The mask does not depend on it, but a picture would show noise. So one rule
+//! decides what is seen: where the plane or a flush face is nearest, the first flush face in the order of the mesh is
+//! seen. What is judged remains what is nearest.
 
 use super::JUDGED_ABOVE_M;
 use super::rays::{RayCaster, Shear};
@@ -14,11 +14,11 @@ use glam::{DVec2, DVec3, Vec3, Vec3Swizzles};
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// A steeper face is not flush, however low it is: the height of its unit normal.
+/// The least height of a flush face's unit normal: a steeper face is not flush, however low it is.
 const LEAST_UP: f32 = 0.5;
 
-/// The receivers' faces that lie in the ground's plane, in their order: all corners are within a millimetre of it, above
-/// or below.
+/// The receivers' faces that lie in the ground's plane, in the order of the mesh: all their corners are within a
+/// millimetre of it, above or below.
 pub(super) fn flush_faces(receivers: &Mesh, ground: f64) -> Vec<u32> {
     let level = ground - receivers.origin.z;
     let is_flush = |face: &u32| {
@@ -34,11 +34,11 @@ pub(super) fn flush_faces(receivers: &Mesh, ground: f64) -> Vec<u32> {
 /// Finds the flush faces at points of the ground's plane.
 #[doc(hidden)]
 pub struct FlushFaces {
-    /// In their order.
+    /// The faces, in the order of the mesh.
     faces: Vec<u32>,
-    /// The same, pressed flat: at height 0, whatever the ground's.
+    /// The same faces pressed flat, at height 0 whatever the ground's height.
     flat: RayCaster,
-    /// A box around them, metres around the receivers' origin.
+    /// A box around the faces, metres from the receivers' origin.
     low: DVec2,
     high: DVec2,
     /// The plane's height above the receivers' origin, metres.
@@ -47,7 +47,7 @@ pub struct FlushFaces {
 }
 
 impl FlushFaces {
-    /// Those of some receivers; `None` if there are none.
+    /// The flush faces of some receivers; `None` if there are none.
     pub fn new(receivers: &Mesh, ground: f64) -> Option<FlushFaces> {
         let faces = flush_faces(receivers, ground);
         let corners = |face: &u32| receivers.corners(*face as usize).map(|corner| corner.with_z(0.0));
@@ -62,8 +62,9 @@ impl FlushFaces {
         Some(FlushFaces { faces, flat, low, high, level, down: Shear::along(DVec3::NEG_Z) })
     }
 
-    /// Where a ray (from where, around the receivers' origin, and the unit direction) meets the plane, if a flush face may be
-    /// seen there: if the plane or such a face is nearest along the ray, and others are near.
+    /// The point where a ray meets the plane, if a flush face may be seen there: the plane or a flush face is nearest
+    /// along the ray, and others are near. A ray is its start, relative to the receivers' origin, and its unit
+    /// direction.
     pub(super) fn place(&self, nearest: u32, (from, along): (DVec3, DVec3)) -> Option<DVec2> {
         if nearest != Surface::GROUND && self.faces.binary_search(&nearest).is_err() {
             return None;
@@ -73,16 +74,16 @@ impl FlushFaces {
         (place.cmpge(self.low).all() && place.cmple(self.high).all()).then_some(place)
     }
 
-    /// The first face at each of up to [`RayCaster::MOST_RAYS`] places of the plane, if there is any.
+    /// The first face at each of up to [`RayCaster::MOST_RAYS`] points of the plane, if there is one.
     pub(super) fn first(&self, places: &[DVec2]) -> ArrayVec<Option<u32>, { RayCaster::MOST_RAYS }> {
-        // from a height of exactly 1, so that all faces are exactly 1 away, and the first one of them is found
+        // from a height of exactly 1, so that all faces are exactly 1 away and the first of them is found
         let origins: ArrayVec<DVec3, { RayCaster::MOST_RAYS }> = places.iter().map(|place| place.extend(1.0)).collect();
         let mut hits = [None; RayCaster::MOST_RAYS];
         self.flat.first_hits(&origins, &self.down, &mut hits);
         hits[..places.len()].iter().map(|hit| hit.map(|(at, _)| self.faces[at as usize])).collect()
     }
 
-    /// What is seen along a ray (as [`FlushFaces::place`] takes it) along which that face, or the ground, is nearest.
+    /// What is seen along a ray, as [`FlushFaces::place`] takes it, if this face or the ground is nearest along it.
     pub fn seen(&self, nearest: u32, ray: (DVec3, DVec3)) -> u32 {
         self.place(nearest, ray).and_then(|place| self.first(&[place])[0]).unwrap_or(nearest)
     }

@@ -1,4 +1,5 @@
-//! Draws the receivers that are flush with the ground before it, on the graphics adapter: by the rule of `flush.rs`.
+//! Draws the receivers that are flush with the ground in front of it, on the graphics adapter, by the rule of
+//! `flush.rs`.
 
 use super::bindings::{Corner, PLANES_WIDTH, bind_group_layout, texture_binding};
 use super::flush::flush_faces;
@@ -7,13 +8,13 @@ use crate::gpu::{Gpu, GpuError, shaders};
 use crate::mesh::Mesh;
 use wgpu::*;
 
-/// Corners that are in one buffer.
+/// The number of corners in one buffer.
 const CORNERS_AT_ONCE: usize = 3 << 18;
 
-/// What is drawn, the last face first: the first face, drawn last, stays.
+/// The flush faces, the last one first: the first face is drawn last, and stays.
 pub(super) struct FlushCorners {
     corners: Vec<Corner>,
-    /// Of all faces of the receivers, in whole rows of planes, whether they are flush: 1.
+    /// For each face of the receivers, 1 if it is flush, padded to whole rows of planes.
     is_flush: Vec<u8>,
 }
 
@@ -32,21 +33,21 @@ impl FlushCorners {
     }
 }
 
-/// The same on an adapter.
+/// The layer on an adapter.
 pub(super) struct FlushLayer {
-    /// Corners, and how many there are.
+    /// Buffers of corners, with their numbers of corners.
     runs: Vec<(Buffer, u32)>,
     is_flush: BindGroup,
     pipeline: RenderPipeline,
 }
 
 impl FlushLayer {
-    /// The layout of the group in which it says which faces are flush.
+    /// The layout of the bind group that says which faces are flush.
     pub(super) fn group(gpu: &Gpu) -> BindGroupLayout {
         bind_group_layout(gpu, "flush", &[texture_binding(TextureSampleType::Uint)])
     }
 
-    /// Uploads what is drawn. `layout` is of the groups of view and of what is seen, and of this `group`.
+    /// Uploads the faces. `layout` has the bind groups of the view, of what is seen, and this `group`.
     pub(super) fn new(
         gpu: &Gpu,
         flush: &FlushCorners,
@@ -75,7 +76,7 @@ impl FlushLayer {
         })
     }
 
-    /// Draws into the faces that are shown, which begin as those that are judged.
+    /// Draws into the texture of faces that are shown, which starts as a copy of those that are judged.
     pub(super) fn draw(&self, encoder: &mut CommandEncoder, shown: &Texture, [frame, seen]: [&BindGroup; 2]) {
         let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
             label: Some("flush"),

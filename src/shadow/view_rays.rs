@@ -1,31 +1,32 @@
-//! The rays along which a view's cells look at what is seen: of a plan, a camera, a side, or the sun.
+//! The rays along which a view's cells see: of a plan, a camera, a side, or the sun.
 
 use super::Scene;
 use crate::view::{Camera, Elevation, Grid, Lens, View};
 use glam::{DVec2, DVec3};
 
-/// The offset of a cell's ray if an edge runs exactly through its centre, in cells: it sees what is east of the edge,
-/// or south of an edge that runs from west to east. This is the rasterisers' top-left rule, so that models whose walls
-/// are on whole cells give the same plan on every machine. A ten-thousandth is just beyond the rounding of corners.
+/// The offset of a cell's ray, in cells, for edges that run exactly through its centre: it sees what is east of the
+/// edge, or south of an edge that runs from west to east. This is the rasterisers' top-left rule, so that models whose
+/// walls are on whole cells give the same plan on every machine. A ten-thousandth is just larger than the rounding of
+/// corners.
 pub(super) const TIE: DVec2 = DVec2::new(1e-4, -1e-5);
 
 /// The rays of a view's cells.
 pub(super) struct Rays {
     pub(super) view: View,
-    /// The first column and row of the part that is looked at.
+    /// The first column and row of the part that is drawn.
     first: [u32; 2],
     /// The scene's origin.
     origin: DVec3,
     start: RayStart,
 }
 
-/// The start of rays.
+/// Where rays start.
 enum RayStart {
     /// A height above everything, in the world frame, from which the plan looks down.
     Above(Grid, f64),
     /// A camera's eye; its rays begin at the near plane.
     Eye(DVec3, Lens),
-    /// The distance in front of a side's own plane from which everything lies behind it.
+    /// The distance in front of a side's plane from which everything lies behind it.
     Before(Elevation, f64),
 }
 
@@ -42,7 +43,7 @@ impl Rays {
         Rays { view, first: [0, 0], origin: scene.casters.origin, start }
     }
 
-    /// Those of a part that begins at this column and row.
+    /// The rays of the part that begins at this column and row.
     pub(super) fn of_part(scene: &Scene, view: View, first: [u32; 2]) -> Rays {
         Rays { first, ..Rays::new(scene, view) }
     }
@@ -83,13 +84,13 @@ impl Rays {
     }
 }
 
-/// How far in front of its own plane a view along parallel rays begins, metres: before a box.
+/// The distance in front of its plane at which a view along parallel rays starts, metres: in front of a box.
 fn away(side: &Elevation, (low, high): (DVec3, DVec3)) -> f64 {
     let nearest = DVec3::select(side.to_viewer.cmpgt(DVec3::ZERO), high, low);
     (nearest - side.target).dot(side.to_viewer) + 1.0
 }
 
-/// The distance from the origin at which rays begin, metres.
+/// The distance from the origin at which rays start, metres.
 pub(super) fn reach(scene: &Scene, view: &View) -> f64 {
     let farthest = match view {
         View::Plan(grid) => {

@@ -1,7 +1,7 @@
-//! How high may be built: over the cells of a plot, the least height of the rays to those suns that must stay.
+//! How high may be built: over each cell of a plot, the least height of the rays to the suns that must stay.
 //!
-//! Of each place as much sun stays as must, and of all the sun that it has those seconds whose rays pass highest over the
-//! plot: so the least height that it leaves is as great as it can be. Between two places there is no bargaining.
+//! Each place keeps as much sun as it must: those seconds whose rays pass highest over the plot, so that the least
+//! height that the place leaves is as great as it can be. Places choose independently of each other.
 
 use super::{Event, OnEvent, StudyError, tell};
 use crate::rules::{Spell, total_secs};
@@ -11,40 +11,40 @@ use chrono::{DateTime, TimeZone};
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// What must keep its sun.
+/// A thing that must keep its sun.
 #[derive(Clone, Debug)]
 pub struct KeptThing {
     /// Its name.
     pub name: String,
     /// Its places.
     pub places: Vec<KeptPlace>,
-    /// How much of them must keep it, of what their weights add up to.
+    /// The weight of the places that must keep it, out of the sum of all weights.
     pub needed: f64,
 }
 
 /// A place whose sun may be kept.
 #[derive(Clone, Debug)]
 pub struct KeptPlace {
-    /// How much of the thing it stands for: 1, or square metres.
+    /// Its weight, the part of the thing that it stands for: 1, or square metres.
     pub weight: f64,
-    /// It is lit where all of these are.
+    /// Its points; it is lit while all of them are.
     pub points: Vec<DVec3>,
-    /// In the order of the days.
+    /// What it must keep on each day.
     pub days: Vec<SunNeeded>,
 }
 
 /// What a place must keep on a day.
 #[derive(Clone, Debug, Default)]
 pub struct SunNeeded {
-    /// When it has sun that counts.
+    /// The spells in which it has sun that counts.
     pub lit: Vec<Spell>,
-    /// How much of it must stay, seconds; 0 on a day that asks nothing.
+    /// The seconds that must stay; 0 on a day without a demand.
     pub secs: i64,
-    /// Whether in one stretch.
+    /// Whether they must be one stretch.
     pub at_once: bool,
 }
 
-/// On which days the sun must stay.
+/// Whether the sun must stay on all days or on one of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DaysNeeded {
     /// On each of them.
@@ -53,25 +53,25 @@ pub enum DaysNeeded {
     One,
 }
 
-/// Sun that is kept of a place.
+/// The sun of a place that is kept on a day.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeptSun {
-    /// Which of the days.
+    /// The day's index.
     pub day: usize,
-    /// When, seconds since 1970.
+    /// The spells that are kept, seconds since 1970.
     pub spells: Vec<Spell>,
-    /// The z of its lowest ray over the plot; infinite where none passes over it.
+    /// The z of its lowest ray over the plot; infinite if none passes over it.
     pub lowest: f64,
-    /// Whether the place has less sun than it must: then all that it has is kept.
+    /// Whether the place has less sun than it must keep; then all of its sun is kept.
     pub lacks: bool,
 }
 
-/// What is kept of a thing.
+/// The sun of a thing that is kept.
 #[derive(Clone, Debug)]
 pub struct KeptOf {
     /// Its name.
     pub name: String,
-    /// For each place that is kept its number, and its sun on the days that count.
+    /// For each place that is kept, its index and its sun on the days that count.
     pub places: Vec<(usize, Vec<KeptSun>)>,
 }
 
@@ -81,25 +81,25 @@ impl KeptOf {
         self.places.iter().flat_map(|(_, kept)| kept).map(|kept| kept.lowest).fold(f64::INFINITY, f64::min)
     }
 
-    /// Whether some place of it has less sun than it must.
+    /// Whether one of its places has less sun than it must keep.
     pub fn lacks(&self) -> bool {
         self.places.iter().flat_map(|(_, kept)| kept).any(|kept| kept.lacks)
     }
 }
 
-/// The heights that are left, and for what.
+/// The heights that are left, and the sun for which they are left.
 #[derive(Clone, Debug)]
 pub struct EnvelopeOutcome {
-    /// Over the plot.
+    /// The heights over the plot.
     pub headroom: Headroom,
     /// Each thing, in the order of the request.
     pub kept: Vec<KeptOf>,
 }
 
-/// The most rays that are asked how high they pass; beyond that it would take hours.
+/// The most rays whose heights are computed; more would take hours.
 pub const MOST_RAYS: i64 = 400_000_000;
 
-/// How high may be built.
+/// Computes how high may be built.
 ///
 /// # Errors
 /// [`StudyError`].
@@ -152,12 +152,12 @@ fn start_of(place: &KeptPlace) -> Option<i64> {
 }
 
 fn time(sky: &Sky<'_>, secs: i64) -> DateTime<Zone> {
-    // a day's windows lie within the years that chrono knows
+    // a day's windows are within the years that chrono supports
     let utc = DateTime::from_timestamp(secs, 0).unwrap_or_default().naive_utc();
     sky.place.time_zone.from_utc_datetime(&utc)
 }
 
-/// The exact sun at each second of a day at which some place has it.
+/// The exact direction to the sun at each second of a day at which some place is lit.
 struct SunsOfDay {
     first: i64,
     to_sun: Vec<DVec3>,
@@ -178,7 +178,7 @@ impl SunsOfDay {
     }
 }
 
-/// The seconds of a day that a place keeps; nothing where it must keep none.
+/// The seconds of a day that a place keeps; `None` if it must keep none.
 fn choose(plot: &Headroom, place: &KeptPlace, day: usize, suns: &SunsOfDay) -> Option<KeptSun> {
     let needed = place.days.get(day).filter(|needed| needed.secs > 0)?;
     let height = |secs: i64| -> RayHeight {
@@ -196,7 +196,7 @@ fn choose(plot: &Headroom, place: &KeptPlace, day: usize, suns: &SunsOfDay) -> O
     Some(KeptSun { day, spells, lowest, lacks })
 }
 
-/// The days of a place that count: all, or the one that leaves the most room, if there is one with enough sun.
+/// The days of a place that count: all, or the one that leaves the most room among those with enough sun.
 fn of_days(chosen: Vec<Option<KeptSun>>, days: DaysNeeded) -> Vec<KeptSun> {
     let chosen = chosen.into_iter().flatten();
     match days {
@@ -204,7 +204,7 @@ fn of_days(chosen: Vec<Option<KeptSun>>, days: DaysNeeded) -> Vec<KeptSun> {
         DaysNeeded::One => {
             let better = |one: &KeptSun, other: &KeptSun| {
                 let order = other.lacks.cmp(&one.lacks).then(one.lowest.total_cmp(&other.lowest));
-                // of a day without enough sun the one that has most
+                // if no day has enough sun, the one with the most
                 let secs = |kept: &KeptSun| if kept.lacks { total_secs(&kept.spells) } else { 0 };
                 order.then(secs(one).cmp(&secs(other))).then(other.day.cmp(&one.day))
             };
@@ -213,9 +213,10 @@ fn of_days(chosen: Vec<Option<KeptSun>>, days: DaysNeeded) -> Vec<KeptSun> {
     }
 }
 
-/// Of a thing's places as many as are needed, those that leave the most room; those that lack sun last.
+/// Chooses as many of a thing's places as are needed, those that leave the most room first, and those that lack sun
+/// last.
 fn roomiest_places(thing: &KeptThing, places: Vec<Vec<KeptSun>>) -> Vec<(usize, Vec<KeptSun>)> {
-    /// Of all the weight: what sums of weights are rounded by.
+    /// The rounding error of sums of weights, as a share of the whole weight.
     const ROUNDED: f64 = 1e-9;
     let merit = |kept: &[KeptSun]| {
         let lowest = kept.iter().map(|kept| kept.lowest).fold(f64::INFINITY, f64::min);
@@ -236,7 +237,7 @@ fn roomiest_places(thing: &KeptThing, places: Vec<Vec<KeptSun>>) -> Vec<(usize, 
     places
 }
 
-/// Keeps the rays of a day.
+/// Lowers the heights so that the rays of a day stay free.
 fn keep(plot: Headroom, things: &[KeptThing], kept: &[KeptOf], (day, suns): (usize, &SunsOfDay)) -> Headroom {
     let rays = |(thing, kept): (&KeptThing, &KeptOf)| {
         let of = |(number, of_days): &(usize, Vec<KeptSun>)| {

@@ -2,9 +2,9 @@
 //! sums of another one.
 //!
 //! This file lists what is hashed: named fields as little-endian bytes, with SipHash-1-3 and the keys 0. Equal
-//! fields give the same number with all compilers and on all machines. But the engine, the adapter's name, the tiles, the
-//! masks' folder, and the bits of the models' corners and of the directions to the sun are among the fields, and may
-//! differ from one machine to another.
+//! fields give the same number with all compilers and on all machines. But the engine, the adapter's name, the tiles,
+//! the masks' folder, and the bits of the models' corners and of the directions to the sun are among the fields, and
+//! may differ from one machine to another.
 
 use super::Wants;
 use crate::choice::Receivers;

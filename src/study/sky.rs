@@ -1,4 +1,4 @@
-//! The sky of points: what stands before each of them, and the sun's ways in it.
+//! The sky of points: what stands in front of each of them, and the sun's ways in it.
 
 use super::StudyError;
 use super::probe::{air, judged_points};
@@ -19,7 +19,7 @@ pub struct SkySearch<'a> {
 }
 
 impl<'a> SkySearch<'a> {
-    /// For the points that a search found.
+    /// The skies of the points that were searched.
     pub fn new(asked: &'a ProbeSite, sunlight: &'a Sunlight) -> SkySearch<'a> {
         let probes: Vec<Probe> = sunlight.probes.iter().map(|probed| probed.probe.clone()).collect();
         let points = judged_points(asked, &probes);
@@ -36,13 +36,13 @@ impl<'a> SkySearch<'a> {
         Ok(SkyLines::of_year(&self.asked.place, year, air(self.asked))?)
     }
 
-    /// What stands before a point, in some pictures.
+    /// What stands in front of a point, in each of some pictures.
     pub fn rasters<const N: usize>(&self, probe: usize, pictures: [SkyPicture; N]) -> [SkyRaster; N] {
         pictures.map(|picture| self.caster.raster(&self.points[probe], picture))
     }
 
-    /// The ways of the requested days with what a point sees of them: of more than [`MOST_WAYS`] days evenly chosen
-    /// ones, the first and the last among them.
+    /// The sun's ways on the requested days, with what a point sees of them; if there are more than [`MOST_WAYS`] days,
+    /// evenly chosen ones, with the first and the last among them.
     ///
     /// # Errors
     /// [`StudyError`].

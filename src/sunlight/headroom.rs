@@ -1,16 +1,16 @@
-//! How high something may stand without meeting rays to the sun: over each cell of a plot, the least height of the rays
-//! that are to stay free.
+//! How high something may stand without blocking rays to the sun: over each cell of a plot, the least height of the
+//! rays that are to stay free.
 //!
-//! A cell is a column with an upright wall on each side, so a ray is lowest over it where it comes in: rays to the sun
-//! rise. Columns are taken a little wider than they are, so that no rounding lets a ray pass through an edge.
+//! A cell is a column with upright walls, and rays to the sun rise, so a ray is lowest over a cell where it enters.
+//! Columns are widened a little, so that no rounding lets a ray pass through an edge.
 
 use crate::view::Grid;
 use glam::{DVec2, DVec3};
 
-/// How much wider a cell is taken on each side, metres. A ray that only touches it counts as meeting it.
+/// The width by which a cell is widened on each side, metres. A ray that only touches it counts as meeting it.
 const WIDER_M: f64 = 0.001;
 
-/// The heights that are left over a plot.
+/// The heights that rays leave over a plot.
 #[derive(Clone, Debug)]
 pub struct Headroom {
     /// The cells.
@@ -21,47 +21,47 @@ pub struct Headroom {
     pub top: Vec<f64>,
 }
 
-/// A second, and how low its ray passes over a plot: z, infinite where it does not.
+/// A second, and the least z of its ray over a plot; infinite if the ray does not pass over it.
 pub type RayHeight = (i64, f64);
 
 /// The seconds that are kept free, and the z of the lowest of their rays.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeptSeconds {
-    /// First seconds, and those after the last, in their order.
+    /// Spells in their order: the first second, and the one after the last.
     pub spells: Vec<[i64; 2]>,
-    /// Infinite where none of them passes over the plot.
+    /// Infinite if none of them passes over the plot.
     pub lowest: f64,
 }
 
 impl Headroom {
-    /// A plot over which there is no ray yet.
+    /// A plot without rays.
     pub fn new(grid: Grid, inside: Vec<bool>) -> Headroom {
         let top = vec![f64::INFINITY; inside.len()];
         Headroom { grid, inside, top }
     }
 
-    /// How low a ray passes over the plot.
+    /// The least z of a ray over the plot.
     pub fn lowest(&self, from: DVec3, to_sun: DVec3) -> f64 {
         let mut lowest = f64::INFINITY;
         self.over(from, to_sun, |_, height| lowest = lowest.min(height));
         lowest
     }
 
-    /// Keeps a ray free.
+    /// Lowers the heights so that a ray stays free.
     pub fn keep(&mut self, from: DVec3, to_sun: DVec3) {
         let mut top = std::mem::take(&mut self.top);
         self.over(from, to_sun, |cell, height| top[cell] = top[cell].min(height));
         self.top = top;
     }
 
-    /// What both leave, of one plot.
+    /// Combines the heights that two sets of rays leave over the same plot.
     pub fn and(mut self, other: &Headroom) -> Headroom {
         self.top.iter_mut().zip(&other.top).for_each(|(top, other)| *top = top.min(*other));
         self
     }
 
-    /// Each cell of the plot over which a ray passes, with the ray's height where it comes in. A ray that does not rise
-    /// belongs to no sun.
+    /// Calls back for each cell of the plot over which a ray passes, with the ray's height where it enters. A ray that
+    /// does not rise belongs to no sun.
     fn over(&self, from: DVec3, to_sun: DVec3, mut each: impl FnMut(usize, f64)) {
         if to_sun.z <= 0.0 {
             return;
@@ -73,7 +73,7 @@ impl Headroom {
         let wider = WIDER_M / cell;
         let (width, height) = (f64::from(self.grid.width), f64::from(self.grid.height));
         let Some([first, last]) = within(start, along, [width, height], wider) else { return };
-        // rows are passed one after the other, and of each the columns between its two sides
+        // one row after the other, and in each the columns between the points where the ray enters and leaves the row
         let rows = {
             let ends = [first, last].map(|at| start.y + along.y * at);
             let [low, high] = [ends[0].min(ends[1]) - wider, ends[0].max(ends[1]) + wider];
@@ -99,15 +99,15 @@ impl Headroom {
     }
 }
 
-/// Where along a line it lies within a rectangle, from the line's beginning on.
+/// The part of a line within a rectangle, from the line's start on.
 fn within(start: DVec2, along: DVec2, [width, height]: [f64; 2], wider: f64) -> Option<[f64; 2]> {
     let across = between(start.x, along.x, [-wider, width + wider], [0.0, f64::INFINITY])?;
     let [first, last] = between(start.y, along.y, [-wider, height + wider], across)?;
-    // one that goes straight up stays where it is
+    // a vertical line stays where it is in plan
     last.is_finite().then_some([first, last]).or(Some([first, first]))
 }
 
-/// Which part of a range of a line lies between two values of one coordinate.
+/// The part of a line's range in which one coordinate lies between two values.
 fn between(start: f64, along: f64, [low, high]: [f64; 2], [first, last]: [f64; 2]) -> Option<[f64; 2]> {
     if along == 0.0 {
         return (low <= start && start <= high).then_some([first, last]);
@@ -117,8 +117,8 @@ fn between(start: f64, along: f64, [low, high]: [f64; 2], [first, last]: [f64; 2
     (first <= last).then_some([first, last])
 }
 
-/// Of seconds in their order those that leave the most room, and are long enough together: the lowest of their rays passes
-/// as high as can be. `at_once` asks for one stretch without a gap. Nothing where there are not enough.
+/// From seconds in their order, chooses enough of them such that their lowest ray is as high as possible. `at_once`
+/// asks for one stretch without a gap. Returns `None` if there are not enough.
 pub fn roomiest(rays: &[RayHeight], secs: usize, at_once: bool) -> Option<KeptSeconds> {
     if secs == 0 {
         return Some(KeptSeconds { spells: Vec::new(), lowest: f64::INFINITY });
@@ -130,7 +130,7 @@ pub fn roomiest(rays: &[RayHeight], secs: usize, at_once: bool) -> Option<KeptSe
         return longest_at_once(rays, secs);
     }
     let mut by_height: Vec<usize> = (0..rays.len()).collect();
-    // of equal ones the first
+    // the first of equal ones
     by_height.sort_by(|one, other| rays[*other].1.total_cmp(&rays[*one].1).then(one.cmp(other)));
     let lowest = rays[by_height[secs - 1]].1;
     let mut kept: Vec<i64> = by_height[..secs].iter().map(|at| rays[*at].0).collect();
@@ -138,7 +138,8 @@ pub fn roomiest(rays: &[RayHeight], secs: usize, at_once: bool) -> Option<KeptSe
     Some(KeptSeconds { spells: spells(&kept), lowest })
 }
 
-/// The same of stretches without a gap: of each the lowest ray, found with a queue of those that may become it.
+/// The same for one stretch without a gap. The lowest ray of each stretch is found with a queue of the rays that may
+/// become it.
 fn longest_at_once(rays: &[RayHeight], secs: usize) -> Option<KeptSeconds> {
     let mut best: Option<(f64, usize)> = None;
     let mut queue = std::collections::VecDeque::new();
@@ -168,7 +169,7 @@ fn longest_at_once(rays: &[RayHeight], secs: usize) -> Option<KeptSeconds> {
     Some(KeptSeconds { spells: vec![[rays[first].0, rays[first].0 + secs as i64]], lowest })
 }
 
-/// Runs of seconds.
+/// Merges seconds into spells.
 fn spells(seconds: &[i64]) -> Vec<[i64; 2]> {
     let mut spells: Vec<[i64; 2]> = Vec::new();
     for second in seconds {

@@ -1,5 +1,5 @@
-//! The lines of a sun-path chart: the sun's ways on days of a year, and where it stands at each hour of the clock and of
-//! the sundial. All of them are of the sun as it is seen, above the horizon.
+//! The lines of a sun-path chart: the sun's ways on days of a year, and its positions at each hour of the clock and of
+//! the sundial. All of them show the sun as it is seen, above the horizon.
 
 use super::{Interval, SunDay, SunPath};
 use crate::sun::{Air, DayWindow, Place, Sky, SunError, Zone, delta_t_secs, true_solar};
@@ -11,12 +11,13 @@ use glam::DVec3;
 pub struct SkyLines {
     /// The year.
     pub year: i32,
-    /// The ways on the 21st of each month; a way has no run where the sun stays down.
+    /// The ways on the 21st of each month; a way has no run if the sun stays down.
     pub months: Vec<DayWay>,
-    /// Where the sun stands when the local clock shows a whole hour: figures of eight, which break off where clocks are put
-    /// forward or back.
+    /// The sun's positions when the local clock shows a whole hour: figures of eight, which break off where clocks are
+    /// put forward or back.
     pub clock_hours: Vec<HourLine>,
-    /// Where it stands when a sundial does, from June to December; in the other half of the year the lines are the same.
+    /// The sun's positions when a sundial shows a whole hour, from June to December; in the other half of the year the
+    /// lines are the same.
     pub solar_hours: Vec<HourLine>,
 }
 
@@ -25,43 +26,44 @@ pub struct SkyLines {
 pub struct DayWay {
     /// The day.
     pub date: NaiveDate,
-    /// Directions, in time's order; several runs where the sun sets in between.
+    /// Directions in the order of time, in several runs if the sun sets in between.
     pub runs: Vec<Vec<DVec3>>,
 }
 
-/// The way of a requested day, with the part of it that a probe sees.
+/// The sun's way on a requested day, with the part of it that a probe sees.
 #[derive(Clone, Debug)]
 pub struct ProbeWay {
-    /// All of the requested part with a sun.
+    /// The whole requested part with the sun up.
     pub way: DayWay,
     /// Each interval of the probe.
     pub intervals: Vec<Interval>,
-    /// The way in each of them, from its start to its end.
+    /// The way during each interval, from its start to its end.
     pub lit: Vec<Vec<DVec3>>,
 }
 
-/// Where the sun stands at an hour, over the days.
+/// The sun's positions at an hour, over the days.
 #[derive(Clone, Debug)]
 pub struct HourLine {
     /// 0 to 23.
     pub hour: u32,
-    /// Days in their order, each with the direction; several runs where the line leaves the sky or the clock is changed.
+    /// Days in their order, each with the direction, in several runs if the line leaves the sky or the clock is
+    /// changed.
     pub runs: Vec<Vec<(NaiveDate, DVec3)>>,
 }
 
-/// From one point of a way to the next, at most, seconds: a degree of the sky.
+/// The greatest time between two points of a way, seconds: one degree of the sky.
 const STEP_SECS: i64 = 240;
-/// So many days lie between two points of an hour's line.
+/// The number of days between two points of an hour's line.
 const DAYS_APART: u64 = 5;
 
 impl SkyLines {
-    /// Those of a year.
+    /// The lines of a year.
     ///
     /// # Errors
     /// A year outside 1600 to 2999.
     pub fn of_year(place: &Place, year: i32, air: Option<Air>) -> Result<SkyLines, SunError> {
         let middle = NaiveDate::from_ymd_opt(year, 7, 1).unwrap_or_default();
-        // one for all of the year, whose first and last hours may be of another by UTC
+        // one value for the whole year, though its first and last hours may lie in another year in UTC
         let delta_t_secs = delta_t_secs(middle.and_time(NaiveTime::MIN).and_utc())?;
         let sky = Sky { place, delta_t_secs, air };
         let months = (1..=12).filter_map(|month| NaiveDate::from_ymd_opt(year, month, 21));
@@ -76,7 +78,7 @@ impl SkyLines {
 }
 
 impl ProbeWay {
-    /// The way of a searched day, and of a probe's intervals on it.
+    /// The sun's way on a searched day, and during a probe's intervals on it.
     ///
     /// # Errors
     /// A year outside 1600 to 2999.
@@ -111,11 +113,11 @@ fn clock_hour(sky: &Sky<'_>, year: i32, hour: u32) -> Result<HourLine, SunError>
     let Some(first) = NaiveDate::from_ymd_opt(year, 1, 1) else { return Ok(HourLine { hour, runs: Vec::new() }) };
     let dates = first.iter_days().take_while(|date| date.year() == year);
     let time = |date: NaiveDate| {
-        // where the clock shows it twice, the first time
+        // if the clock shows the hour twice, the first time
         sky.place.time_zone.from_local_datetime(&date.and_time(NaiveTime::from_hms_opt(hour, 0, 0)?)).earliest()
     };
     let all: Vec<(NaiveDate, Option<DateTime<Zone>>)> = dates.map(|date| (date, time(date))).collect();
-    // days on which the clock goes alike have the hour at the same time of UTC
+    // days with the same offset have the hour at the same time of UTC
     let of_day = |time: DateTime<Zone>| i64::from(time.to_utc().num_seconds_from_midnight());
     let mut runs: Vec<Vec<(NaiveDate, DVec3)>> = Vec::new();
     let mut run: Vec<(NaiveDate, DVec3)> = Vec::new();
@@ -161,7 +163,7 @@ fn solar_hour(sky: &Sky<'_>, year: i32, hour: u32) -> Result<HourLine, SunError>
     Ok(HourLine { hour, runs: above_horizon(&run) })
 }
 
-/// The parts of a line above the horizon, each ending on it where the line goes through it.
+/// The parts of a line above the horizon, each of which ends on the horizon if the line crosses it there.
 fn above_horizon(line: &[(NaiveDate, DVec3)]) -> Vec<Vec<(NaiveDate, DVec3)>> {
     let mut runs: Vec<Vec<(NaiveDate, DVec3)>> = Vec::new();
     let mut run: Vec<(NaiveDate, DVec3)> = Vec::new();

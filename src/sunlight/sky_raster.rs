@@ -1,4 +1,4 @@
-//! What stands before a point, in each direction of its sky: a ray for each cell of a picture of the sky.
+//! What stands in front of a point in each direction of its sky: one ray for each cell of a picture of the sky.
 
 use super::JudgedPoint;
 use crate::mesh::Mesh;
@@ -10,7 +10,7 @@ use rayon::prelude::*;
 /// What a direction of the sky meets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum SkyCell {
-    /// Nothing: a sun there is seen. Or the cell lies outside of the picture's disc.
+    /// Nothing: a sun there is seen. Also for cells outside of the picture's disc.
     Free,
     /// The point's own plane: the direction is behind it, or in it.
     Behind,
@@ -20,23 +20,23 @@ pub enum SkyCell {
     Component(u32),
 }
 
-/// What stands before a point.
+/// What stands in front of a point.
 #[derive(Clone, Debug)]
 pub struct SkyRaster {
     /// The picture that the cells fill.
     pub picture: SkyPicture,
-    /// Row 0 first; each is asked at its centre.
+    /// The cells, row 0 first, each found at its centre.
     pub cells: Vec<SkyCell>,
 }
 
-/// What the skies of points are found with.
+/// The search for the skies of points.
 pub struct SkyCaster {
     casters: Mesh,
     rays: RayCaster,
 }
 
 impl SkyCaster {
-    /// For points that are judged there.
+    /// A search for points that are judged there.
     pub fn new(casters: Mesh, points: &[JudgedPoint]) -> SkyCaster {
         let reach = points.iter().map(|at| (at.point - casters.origin).abs().max_element());
         let rays = RayCaster::new(&casters, reach.fold(0.0, f64::max));

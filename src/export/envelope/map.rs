@@ -1,22 +1,22 @@
-//! How high may be built on a plot: what all files of an envelope are made of.
+//! How high may be built on a plot: the data from which all files of an envelope are made.
 
 use crate::site::Ground;
 use crate::sun::Place;
 use crate::view::Grid;
 use glam::{DVec2, DVec3};
 
-/// The heights on a plot, and what they keep free.
+/// The heights on a plot, and the sun that they keep.
 #[derive(Clone, Copy, Debug)]
 pub struct EnvelopeMap<'a> {
     /// The place on Earth.
     pub place: &'a Place,
-    /// The ground, from whose level heights count.
+    /// The ground, above whose level heights are measured.
     pub ground: &'a Ground,
-    /// The cells.
+    /// The cells of the raster.
     pub grid: &'a Grid,
-    /// For each cell the greatest height, metres above the ground's level; NaN beside the plot. Row 0 is north.
+    /// For each cell, the greatest height, metres above the ground's level; NaN outside the plot. Row 0 is north.
     pub heights: &'a [f32],
-    /// The height where no ray is in the way, metres: no building is asked to be higher.
+    /// The height where no ray limits it, metres: higher buildings are not considered.
     pub cap_m: f32,
     /// The plot's border.
     pub border: &'a [DVec2],
@@ -24,27 +24,27 @@ pub struct EnvelopeMap<'a> {
     pub buildings: &'a [bool],
     /// The points whose sun is kept.
     pub points: &'a [DVec3],
-    /// What is kept, in a line: the rule or the hours.
+    /// One line that says what is kept: the rule, or the hours.
     pub kept: &'a str,
-    /// The days whose sun is kept, in a line.
+    /// One line that names the days whose sun is kept.
     pub days: &'a str,
     /// Whether directions include refraction.
     pub refraction: bool,
 }
 
 impl EnvelopeMap<'_> {
-    /// The height of a cell; none beside the plot.
+    /// The height of a cell; `None` outside the plot.
     pub fn height(&self, cell: usize) -> Option<f32> {
         self.heights.get(cell).copied().filter(|height| !height.is_nan())
     }
 
-    /// Cubic metres below the heights.
+    /// The volume below the heights, cubic metres.
     pub fn volume_m3(&self) -> f64 {
         let heights = (0..self.heights.len()).filter_map(|cell| self.height(cell));
         heights.map(f64::from).sum::<f64>() * self.grid.cell * self.grid.cell
     }
 
-    /// The least and the greatest height; none of a plot without cells.
+    /// The least and the greatest height; `None` if the plot has no cell.
     pub fn range(&self) -> Option<[f32; 2]> {
         let heights = (0..self.heights.len()).filter_map(|cell| self.height(cell));
         heights.fold(None, |range, height| match range {

@@ -1,4 +1,4 @@
-//! What is said of an envelope: a table for people, and the JSON.
+//! The report on an envelope: a table for people, and the JSON.
 
 use super::map::EnvelopeMap;
 use crate::export::judgement::{CHECK, RuleReport, SettledReport, rule_report, settled_report};
@@ -14,42 +14,43 @@ use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;
 
-/// What keeps its sun, as it is told.
+/// A thing that keeps its sun, as it is reported.
 #[derive(Clone, Debug)]
 pub struct KeptReceiver {
     /// Its name.
     pub name: String,
-    /// Metres above the ground's level of its lowest ray over the plot; none where no ray passes over it.
+    /// The height of its lowest ray over the plot, metres above the ground's level; `None` if no ray passes over the
+    /// plot.
     pub lowest_m: Option<f64>,
-    /// Whether it has less sun than it must, and so keeps all that it has.
+    /// Whether it has less sun than the rule asks, so that all of its sun is kept.
     pub lacks: bool,
-    /// Its places that are kept.
+    /// Its places whose sun is kept.
     pub places: Vec<KeptSpot>,
 }
 
 /// A place that keeps its sun.
 #[derive(Clone, Debug)]
 pub struct KeptSpot {
-    /// Where it is judged; lit where all of these are.
+    /// The points where it is judged; it is lit while all of them are.
     pub points: Vec<DVec3>,
-    /// For each of its days the day's number and when the sun stays.
+    /// For each of its days, the day's index and when the sun stays.
     pub days: Vec<(usize, Vec<Spell>)>,
 }
 
-/// All that is said of an envelope.
+/// Everything that is reported on an envelope.
 #[derive(Clone, Copy, Debug)]
 pub struct EnvelopeTold<'a> {
     /// The heights.
     pub map: &'a EnvelopeMap<'a>,
-    /// Where the rule is from.
+    /// The rule's source.
     pub source: &'a RuleSource,
     /// The rule.
     pub rule: &'a ResolvedRule,
-    /// Its days.
+    /// The rule's days.
     pub days: &'a [RuleDay],
     /// What is kept.
     pub kept: &'a [KeptReceiver],
-    /// The files.
+    /// The files that were written.
     pub files: &'a [PathBuf],
 }
 
@@ -100,12 +101,12 @@ struct KeptDayReport {
 }
 
 /// The JSON: the rule as `judge` has it, the raster of the heights (`region`, `cell`, `width`, `height`), `highest_m`, which
-/// nothing exceeds, the `least_m` and `greatest_m` height and the `volume_m3` below them, and for everything that is `kept`
-/// its lowest ray above the ground (`lowest_m`, null where none passes over the plot), whether it `lacks` sun, and at each
-/// of its places when the sun stays.
+/// nothing exceeds, the `least_m` and `greatest_m` height and the `volume_m3` below them. For everything that is `kept`, it
+/// has the height of the lowest ray above the ground (`lowest_m`, null if none passes over the plot), whether it `lacks`
+/// sun, and when the sun stays at each of its places.
 ///
 /// # Errors
-/// [`ExportError::Encode`] where the encoder refuses.
+/// [`ExportError::Encode`] if the encoder fails.
 pub fn json(told: &EnvelopeTold, (notes, words): (&[Message], &dyn Words)) -> Result<String, ExportError> {
     let EnvelopeTold { map, source, rule, .. } = *told;
     let day = |(number, spells): &(usize, Vec<Spell>)| KeptDayReport {
@@ -150,7 +151,7 @@ pub fn json(told: &EnvelopeTold, (notes, words): (&[Message], &dyn Words)) -> Re
     })
 }
 
-/// Of more things the names are not listed.
+/// The most things whose names are listed.
 const MOST_LINES: usize = 40;
 
 /// The files, the heights, what is kept and when, and what that rests on. Ends with a line break.
@@ -202,7 +203,7 @@ pub fn table(told: &EnvelopeTold) -> String {
     text
 }
 
-/// When the sun of a thing stays: of a single place on a single day its spells, else how much.
+/// When a thing's sun stays: the spells if it is a single place on a single day, else how much stays.
 fn stays(told: &EnvelopeTold, of: &KeptReceiver) -> String {
     let lacks = if of.lacks { "; less than the rule asks: all of it is kept" } else { "" };
     let clock = |secs: i64| time(told.map.place, secs).format("%H:%M:%S").to_string();
@@ -222,7 +223,7 @@ fn stays(told: &EnvelopeTold, of: &KeptReceiver) -> String {
 }
 
 fn time(place: &Place, secs: i64) -> DateTime<Zone> {
-    // a day's windows lie within the years that chrono knows
+    // a day's windows are within the years that chrono supports
     let utc = DateTime::from_timestamp(secs, 0).unwrap_or_default().naive_utc();
     place.time_zone.from_utc_datetime(&utc)
 }

@@ -1,4 +1,4 @@
-//! The envelope as a solid: a column on each cell, without walls between equal heights.
+//! The envelope as a solid: a column on each cell, without walls between columns of equal height.
 
 use super::map::EnvelopeMap;
 use crate::export::ExportError;
@@ -14,18 +14,18 @@ use std::fmt::Write;
 pub struct EnvelopeSolid {
     /// East, north and up.
     pub corners: Vec<DVec3>,
-    /// By the corners' numbers.
+    /// Triangles, as indices of corners.
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// The most cells that become a solid: each has up to ten triangles.
+/// The most cells of a solid; each has up to ten triangles.
 const MOST_CELLS: usize = 1_000_000;
 
 impl EnvelopeSolid {
-    /// Of all cells that have any height.
+    /// The solid of all cells whose height is above 0.
     ///
     /// # Errors
-    /// [`ExportError::Encode`] where nothing may stand anywhere, or there are too many cells.
+    /// [`ExportError::Encode`] if nothing may stand anywhere, or there are too many cells.
     pub fn of(map: &EnvelopeMap) -> Result<EnvelopeSolid, ExportError> {
         let (width, height) = (map.grid.width as usize, map.grid.height as usize);
         let top = |column: usize, row: usize| match column < width && row < height {
@@ -62,7 +62,7 @@ impl EnvelopeSolid {
                     at(west, north, high),
                 ]);
                 solid.quad([at(west, north, low), at(east, north, low), at(east, south, low), at(west, south, low)]);
-                // what a lower neighbour leaves of the wall; the lower one has none there
+                // the part of the wall above a lower neighbour; the lower cell has no wall there
                 let sides = [
                     (row.checked_sub(1).map_or(0.0, |row| top(column, row)), [east, north], [west, north]),
                     (top(column, row + 1), [west, south], [east, south]),
@@ -89,7 +89,7 @@ impl EnvelopeSolid {
     /// A binary glTF file: metres, y up, translucent.
     ///
     /// # Errors
-    /// [`ExportError`] where the encoder refuses.
+    /// [`ExportError`] if the encoder fails.
     pub fn glb(&self, map: &EnvelopeMap) -> Result<Vec<u8>, ExportError> {
         let origin = self.corners.first().copied().unwrap_or_default().round();
         let corners: Vec<Vec3> =
@@ -120,7 +120,7 @@ impl EnvelopeSolid {
         file.finish("envelope", document)
     }
 
-    /// A Wavefront OBJ file: metres, y up, as most programs take it.
+    /// A Wavefront OBJ file: metres, y up, as most programs expect.
     pub fn obj(&self, map: &EnvelopeMap) -> String {
         let mut text = format!(
             "# Gnomon {}: how high may be built; metres around the place, y up\n# keeps: {}, {}\no envelope\n",

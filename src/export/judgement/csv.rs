@@ -8,8 +8,8 @@ use std::fmt::Write;
 const HEAD: &str = "name,kind,dwelling,room,use,verdict,grade,date,x,y,z,unit,value,limit,margin,before,difference,share,\
                     share_limit,share_before,share_error,excuse\r\n";
 
-/// A table with a line a receiver, in the site's order, after RFC 4180. `value`, `limit`, `margin`, `before` and `difference`
-/// are in the `unit`: s, m2 or m2 s; shares are of the area. What there is not is empty.
+/// A table with one line per receiver, in the site's order, as in RFC 4180. `value`, `limit`, `margin`, `before` and
+/// `difference` are in the `unit`: s, m2 or m2 s; shares are of the area. A field without a value is empty.
 pub fn csv(judgement: &Judgement) -> String {
     let mut text = HEAD.to_owned();
     for receiver in &judgement.receivers {

@@ -148,29 +148,30 @@ struct UseReport<'a> {
     seconds: i64,
 }
 
-/// Of more days than this the deciding finding alone is told.
+/// The most days for which all findings are reported; if there are more, only the deciding one is.
 const MOST_TOLD: usize = 8;
 
 /// The JSON of `gnomon judge`: `gnomon`, `place`, `tz_version`, the ground and `refraction` as in `profile.json`, the `year`,
 /// then
 ///
 /// - the `rule` with its `edition`, `sources`, `confidence` and what it `assumes`, the `options` as they are chosen, the
-///   `clock`, the `sun` that counts, how is `counted`, with what it is compared, and the `criteria`, numbered from 1;
+///   `clock`, the `sun` that counts, how it is `counted`, what it is compared with, and the `criteria`, numbered from 1;
 /// - the `verdict` of the whole (`pass`, `fail`, `close`, `report`) and its `grade`;
-/// - `days`, each with its date, its verdict over all receivers, and the `windows` in which is counted, those of each
-///   criterion with them (null where it is bound to other days);
-/// - `receivers`: the deciding number with its limit, its margin (negative where it is missed), the number before and the
-///   difference, in seconds and, of areas, as a share of the area, which is known to `share_error`; the `worst` day and point;
-///   what is counted on each day (`seconds_by_day`, in the order of `days`); the `findings` of each criterion on each day (of
-///   more than 8 days the deciding one); the spells of the same days at the point (`start` is the first second in the sun,
-///   `end` the first no longer in it; `before` and `after` say what blocks), in the state before, too; `open`, when a sun that
-///   counts would shine if nothing stood there; and of what does not pass `takes`: each component's seconds on the deciding
-///   day that it takes alone (`secs`) and together with others, of an area the mean over points that do not keep the demand;
+/// - `days`, each with its date, its verdict over all receivers, and the counted `windows`, with those of each criterion
+///   (null if it is bound to other days);
+/// - `receivers`: the deciding number with its limit, its margin (negative if it is missed), the number before and the
+///   difference, in seconds or, for areas, as a share of the area with the error `share_error`; the `worst` day and point;
+///   what is counted on each day (`seconds_by_day`, in the order of `days`); the `findings` of each criterion on each day
+///   (only the deciding one if there are more than 8 days); the spells of the same days at the point, also in the state
+///   before (`start` is the first second in the sun, `end` the first after it; `before` and `after` say what blocks);
+///   `open`, when a sun that counts would shine with nothing in its way; and, if it does not pass, `takes`: the seconds of
+///   the deciding day that each component takes alone (`secs`) and together with others, for an area as the mean over
+///   points that do not keep the demand;
 /// - `groups`: rooms, dwellings and the house;
 /// - `notes` as in `profile.json`, with those on how it was judged.
 ///
 /// # Errors
-/// [`ExportError::Encode`] where the encoder refuses.
+/// [`ExportError::Encode`] if the encoder fails.
 pub fn json(
     judgement: &Judgement,
     site: &JudgedSite,

@@ -1,4 +1,5 @@
-//! What `gnomon judge` says: a table for people, JSON with enough to compute it again by hand, and CSV with a line a receiver.
+//! The results of `gnomon judge`: a table for people, JSON with enough to compute it again by hand, and CSV with one
+//! line per receiver.
 
 mod csv;
 mod json;

@@ -6,11 +6,11 @@ use crate::site::JudgedState;
 use crate::sun::{Place, Zone};
 use chrono::{DateTime, NaiveDate, TimeZone};
 
-/// What is said beside every verdict.
+/// The sentence that stands beside every verdict.
 pub(in crate::export) const CHECK: &str =
     "Nothing here is legal advice: check with your authority which rule, edition and values hold.";
 
-/// Why a number that misses its limit is taken all the same.
+/// Why a number that misses its limit is accepted all the same.
 pub(super) fn excuse(why: Excuse) -> String {
     match why {
         Excuse::Ratio => "enough of what was before".to_owned(),
@@ -24,7 +24,7 @@ pub(super) fn deciding(ruling: &Ruling) -> Option<&Finding> {
     ruling.deciding.and_then(|at| ruling.findings.get(at))
 }
 
-/// A number and its unit, as JSON and CSV have it.
+/// A number and its unit, as in JSON and CSV.
 pub(super) fn number(quantity: Quantity) -> (f64, &'static str) {
     match quantity {
         Quantity::Secs(secs) => (secs as f64, "s"),
@@ -40,31 +40,32 @@ pub(super) fn secs_of(quantity: Option<Quantity>) -> Option<i64> {
     quantity.and_then(|quantity| if let Quantity::Secs(secs) = quantity { Some(secs) } else { None })
 }
 
-/// The part of an area that a number of square metres is.
+/// The share of an area that a number of square metres is.
 pub(super) fn share_of(quantity: Option<Quantity>, m2: f64) -> Option<f64> {
     quantity.and_then(|quantity| if let Quantity::AreaM2(part) = quantity { Some(part / m2) } else { None })
 }
 
-/// The seconds that are reported for a receiver where no finding has any: those of the day that counts least.
+/// The seconds that are reported for a receiver if no finding has any: those of the day with the least.
 pub(super) fn least_counted(receiver: &ReceiverRuling) -> Option<(usize, i64)> {
     let counted = receiver.counts.iter().map(|count| count.now_secs).enumerate();
     counted.min_by_key(|(_, secs)| *secs)
 }
 
-/// The day that decides, or else the one that counts least.
+/// The day that decides; if none does, the one with the least.
 pub(super) fn date_of(judgement: &Judgement, receiver: &ReceiverRuling) -> Option<NaiveDate> {
     let of_finding = deciding(&receiver.ruling).and_then(|finding| finding.date);
     of_finding.or_else(|| least_counted(receiver).map(|(day, _)| judgement.days[day].date))
 }
 
-/// The clock's time at a second since 1970.
+/// The local time at a second since 1970.
 pub(super) fn time(place: &Place, secs: i64) -> DateTime<Zone> {
-    // spells lie within the years that chrono knows
+    // spells are within the years that chrono supports
     let utc = DateTime::from_timestamp(secs, 0).unwrap_or_default().naive_utc();
     place.time_zone.from_utc_datetime(&utc)
 }
 
-/// What blocks, as a word or as the component's name. A component whose name is one of the words gets a distinct name.
+/// What blocks the sun, as a word or as the component's name. A component whose name is one of the words gets a
+/// distinct name.
 pub(super) fn blocker(state: &JudgedState, bound: SpellBound) -> String {
     match bound {
         SpellBound::Window => "window".to_owned(),

@@ -1,4 +1,4 @@
-//! A rule in the JSON of a judgement: what it is from, and what is chosen of it.
+//! A rule in the JSON of a judgement: its source, and what is chosen in it.
 
 use crate::rules::{
     CompareWith, Counting, Criterion, Demand, DwellingShare, Extent, OptionValue, ResolvedRule, RuleClock, RuleSource,
@@ -19,7 +19,7 @@ pub(in crate::export) struct RuleReport<'a> {
     assumes: &'a [String],
 }
 
-/// What is chosen of a rule.
+/// What is chosen in a rule.
 #[derive(Serialize)]
 pub(in crate::export) struct SettledReport<'a> {
     #[serde(serialize_with = "options")]
@@ -104,7 +104,7 @@ pub(in crate::export) fn rule_report(source: &RuleSource) -> RuleReport<'_> {
     }
 }
 
-/// A clock's word, as rules write it.
+/// A clock's word in rules.
 pub(super) fn clock_word(clock: RuleClock) -> &'static str {
     match clock {
         RuleClock::Legal => "legal",

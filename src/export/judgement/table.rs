@@ -1,4 +1,4 @@
-//! What people read of a judgement.
+//! A judgement as text for people.
 
 use super::super::names::plain;
 use super::super::probe::{clock, triple};
@@ -10,11 +10,11 @@ use crate::rules::{Finding, Quantity, Verdict};
 use crate::site::JudgedSite;
 use std::fmt::Write;
 
-/// Of so many takers the names are listed.
+/// The most takers whose names are listed.
 const MOST_TAKERS: usize = 3;
 
-/// The verdict, what it rests on, a line a receiver and a group, and who takes the sun of what does not pass. Ends with a line
-/// break.
+/// The verdict, a line for each receiver and group, who takes the sun of what does not pass, and what the verdict rests
+/// on. Ends with a line break.
 pub fn table(judgement: &Judgement, site: &JudgedSite) -> String {
     let mut text = String::new();
     // Writing to a String cannot fail.
@@ -59,7 +59,7 @@ fn receivers(text: &mut String, judgement: &Judgement) {
     }
 }
 
-/// A number with its unit; a part of an area as its share, with what it is known to.
+/// A number with its unit; a part of an area as a share with its error.
 fn said(quantity: Quantity, receiver: &ReceiverRuling) -> String {
     match (quantity, receiver.area) {
         (Quantity::Secs(secs), _) => clock(secs),
@@ -145,7 +145,7 @@ fn takers(text: &mut String, judgement: &Judgement, site: &JudgedSite) {
     }
 }
 
-/// Where the rule is from, what is chosen and taken for granted, and what the models stand on.
+/// The rule's source, what is chosen and assumed, and what the models stand on.
 fn rests_on(text: &mut String, judgement: &Judgement, site: &JudgedSite) {
     let source = &judgement.source;
     let options: Vec<String> =

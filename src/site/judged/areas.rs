@@ -15,19 +15,19 @@ use crate::site::written::WrittenSite;
 use crate::sun::Place;
 use glam::{DVec2, DVec3, Vec3};
 
-/// Steeper faces are no part of an area: the cosine of 60°.
+/// Steeper faces do not belong to an area: the cosine of 60°.
 const LEAST_UP: f64 = 0.5;
-/// Nobody judges higher above the ground, or above the place, metres.
+/// The greatest height of an area above the ground or the place, metres.
 const HIGHEST_M: f64 = 1e5;
-/// The side of a texel of the patches, of which only the faces are asked, metres.
+/// The side of the patches' texels, metres. Only the patches' faces are used.
 const CELL_M: f64 = 1.0;
-/// No more areas are judged at once.
+/// The most areas that are judged at once.
 const MOST_AREAS: usize = 10_000;
 
-/// The areas of a site file, and what should be known of them.
+/// The areas of a site file, and notes on them.
 ///
 /// # Errors
-/// The first that is none.
+/// The first area that is wrong.
 pub(super) fn areas(
     written: &WrittenSite,
     place: &Place,
@@ -40,7 +40,7 @@ pub(super) fn areas(
         for area in of_table {
             if !names.take(&area.name) {
                 let what = format!("\"{}\" is the name of another area, too", area.name);
-                return Err(table.wrong("name", message![what; "name each otherwise"]));
+                return Err(table.wrong("name", message![what; "give each its own name"]));
             }
             areas.push(area);
         }
@@ -52,7 +52,7 @@ pub(super) fn areas(
     Ok((areas, notes))
 }
 
-/// Those of one table.
+/// The areas of one table.
 fn of_table(
     table: &AskedTable,
     area: &AreaTable,
@@ -86,7 +86,7 @@ fn of_table(
     of_outlines(table, (file.0, outlines), table.named(area.name.as_ref()), &surface)
 }
 
-/// An area within borders that are checked.
+/// An area within borders, which are checked.
 fn bounded(
     table: &AskedTable,
     key: &str,
@@ -97,7 +97,7 @@ fn bounded(
     Ok(JudgedArea { name, rings, surface })
 }
 
-/// Those of a file's polygons that are meant: all, or the ones of a name.
+/// The polygons of a file that are meant: all, or those with the given name.
 fn of_outlines(
     table: &AskedTable,
     (file, outlines): (&str, Vec<PlacedOutline>),
@@ -134,7 +134,7 @@ fn of_outlines(
     }
 }
 
-/// The faces of some components that look upward, in the world frame.
+/// The upward faces of some components, in the world frame.
 fn upper_faces(table: &AskedTable, names: &WrittenNames, mesh: &Mesh) -> Result<Vec<[DVec3; 3]>, SiteError> {
     let chosen = table.chosen("component", names, mesh)?;
     let patches = Patches::of(mesh, &chosen, CELL_M, MOST_TEXELS);

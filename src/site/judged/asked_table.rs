@@ -1,4 +1,4 @@
-//! One of the tables that say what is judged, and what can be wrong with its keys.
+//! One of the tables that say what is judged, with the checks that their keys share.
 
 use crate::formats::{composed, on_disk};
 use crate::mesh::Mesh;
@@ -20,25 +20,25 @@ pub(super) struct AskedTable<'a> {
     pub(super) written: &'a WrittenSite,
     /// The table's name.
     pub(super) name: &'static str,
-    /// Its index, and how many there are.
+    /// Its index, and the number of such tables.
     pub(super) at: (usize, usize),
 }
 
 impl AskedTable<'_> {
-    /// Where one of its keys stands.
+    /// The location of one of its keys.
     pub(super) fn key(&self, key: &str) -> FieldLocation {
         self.written.list_key(self.name, self.at, key)
     }
 
-    /// A value that cannot be used.
+    /// The error for a value that cannot be used.
     pub(super) fn wrong(&self, key: &str, message: impl Into<Message>) -> SiteError {
         refuse(self.key(key), message)
     }
 
-    /// Which of some keys it has.
+    /// Returns the one key of several that the table has.
     ///
     /// # Errors
-    /// None of them, and more than one.
+    /// If it has none of them, or more than one.
     pub(super) fn one_of(&self, keys: &[(&'static str, bool)]) -> Result<&'static str, SiteError> {
         let mut written = keys.iter().filter(|(_, is_written)| *is_written).map(|(key, _)| *key);
         match (written.next(), written.next()) {
@@ -55,7 +55,7 @@ impl AskedTable<'_> {
         }
     }
 
-    /// Refuses a key that says nothing beside another.
+    /// Refuses a key that has no meaning beside another.
     pub(super) fn needless(&self, key: &str, is_written: bool, beside: &str) -> Result<(), SiteError> {
         match is_written {
             true => Err(self.wrong(key, message![format!("says nothing beside `{beside}`"); "leave it out"])),
@@ -76,10 +76,10 @@ impl AskedTable<'_> {
         }
     }
 
-    /// For each component, whether a key's names mean it.
+    /// Returns for each component whether it has one of a key's names.
     ///
     /// # Errors
-    /// A name that no component has, and names that mean none.
+    /// A name that no component has, and names that choose no component.
     pub(super) fn chosen(&self, key: &str, names: &WrittenNames, mesh: &Mesh) -> Result<Vec<bool>, SiteError> {
         let names = Names::Some(names.0.clone());
         if let Some((name, nearest)) = names.unknown(&names_of(&mesh.components)) {
@@ -92,7 +92,7 @@ impl AskedTable<'_> {
         }
     }
 
-    /// A file that it names, which is there.
+    /// The path of a file that it names, which exists.
     pub(super) fn file(&self, key: &str, name: &str) -> Result<PathBuf, SiteError> {
         let path = on_disk(&self.written.folder.join(name));
         if path.is_file() {
@@ -102,7 +102,7 @@ impl AskedTable<'_> {
         Err(self.wrong(key, message![what; "write where it lies, from the site file's folder"]))
     }
 
-    /// What it is called, where it says so.
+    /// Its name, if it has one.
     pub(super) fn named<'b>(&self, name: Option<&'b String>) -> Option<&'b str> {
         name.map(|name| name.trim()).filter(|name| !name.is_empty())
     }

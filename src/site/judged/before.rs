@@ -16,22 +16,22 @@ use crate::sun::Place;
 use rustc_hash::FxHashSet;
 use std::sync::Arc;
 
-/// The site as it is asked for.
+/// The state of the site that is judged.
 pub(super) struct AskedSite<'a> {
     pub(super) written: &'a WrittenSite,
     pub(super) place: &'a Place,
     pub(super) models: &'a Models,
-    /// The ground's height, where somebody says it.
+    /// The ground's height, if it is given.
     pub(super) level: Option<f64>,
     /// For each component, whether its pieces are windows.
     pub(super) is_glass: &'a [bool],
 }
 
-/// Both states: the site as it is asked for, and the one before where the site file says one; and what should be known of
-/// the models of that.
+/// Both states, the one that is judged and the one before if the site file has one, and notes on the models of the
+/// latter.
 ///
 /// # Errors
-/// What is wrong with the table, and with the site that it names.
+/// An error in the table, or in the site that it names.
 pub(super) fn states(
     site: &AskedSite,
     asked: &Overrides,
@@ -63,7 +63,7 @@ pub(super) fn states(
     Ok((state(&mesh, casts, ground), Some(state(&mesh, casts_before, ground)), Vec::new()))
 }
 
-/// What casts before, of the same models.
+/// For each component of the same models, whether it casts in the state before.
 fn casts_before(site: &AskedSite, table: &AskedTable, before: &BeforeTable) -> Result<Vec<bool>, SiteError> {
     let keys = [("absent", before.absent.is_some()), ("demolished", before.demolished.is_some())];
     if keys.iter().all(|(_, is_written)| !is_written) {
@@ -85,7 +85,7 @@ fn casts_before(site: &AskedSite, table: &AskedTable, before: &BeforeTable) -> R
     Ok(casts)
 }
 
-/// The state of another site file, at the place of this one, on one ground with it.
+/// The state of another site file, at the place of this one and on the same ground.
 fn other_site(
     site: &AskedSite,
     table: &AskedTable,
@@ -98,7 +98,7 @@ fn other_site(
         return Err(table.wrong("site", message![what; "write where it lies, from the site file's folder"]));
     }
     let mut other = WrittenSite::read_beside(&path, site.written, asked)?;
-    // a model's file may have said it
+    // a model's file may have given it
     let mut own = site.written.clone();
     own.site.place.get_or_insert_default().elevation = Some(site.place.elevation_m);
     other.site.place.get_or_insert_default().elevation.get_or_insert(site.place.elevation_m);
@@ -109,7 +109,7 @@ fn other_site(
     let notes = models.notes(&other, &casts);
     let level = one_level(site, &other, asked)?;
     let ground = Ground::of(&models.mesh, models.bounds, &receives, level);
-    // what is glass of the one is glass of the other, by its name
+    // the glass of one state is that of the other, too, by its name
     let own = site.models.mesh.components.iter().zip(site.is_glass);
     let glass: FxHashSet<&str> =
         own.filter(|(_, is_glass)| **is_glass).map(|(component, _)| component.name.as_str()).collect();
@@ -118,7 +118,7 @@ fn other_site(
     Ok((JudgedState { mesh: Arc::new(models.mesh), casts, ground }, notes))
 }
 
-/// The height of the ground of both states, where somebody says it.
+/// The height of both states' ground, if it is given.
 fn one_level(site: &AskedSite, other: &WrittenSite, asked: &Overrides) -> Result<Option<f64>, SiteError> {
     let of_other = ground::level(other, asked)?;
     match (site.level, of_other) {

@@ -10,19 +10,19 @@ use crate::site::judged_tables::FacadeTable;
 use crate::site::laid::row;
 use crate::site::written::WrittenSite;
 
-/// From point to point where nobody says it, metres.
+/// The distance between points if none is given, metres.
 const SPACING_M: f64 = 1.0;
 /// The least and the greatest distance between points, metres.
 const SPACINGS_M: [f64; 2] = [0.05, 1000.0];
-/// No row lies higher or lower, metres.
+/// The greatest height of a row above or below zero, metres.
 const HIGHEST_M: f64 = 1e4;
-/// No more points are judged at once.
+/// The most points that are judged at once.
 const MOST_POINTS: usize = 200_000;
 
-/// The façades of a site file, on a ground at this height, and what should be known of them.
+/// The façades of a site file, on a ground at this height, and notes on them.
 ///
 /// # Errors
-/// The first that is none.
+/// The first façade that is wrong.
 pub(super) fn facades(
     written: &WrittenSite,
     mesh: &Mesh,
@@ -35,7 +35,7 @@ pub(super) fn facades(
         let facade = of_table(&table, facade, (mesh, ground), &mut notes)?;
         if !names.take(&facade.name) {
             let what = format!("\"{}\" is the name of another façade, too", facade.name);
-            return Err(table.wrong("name", message![what; "name each otherwise"]));
+            return Err(table.wrong("name", message![what; "give each its own name"]));
         }
         points += facade.points.len();
         if points > MOST_POINTS {
@@ -81,7 +81,7 @@ fn of_table(
                 of.points.push([point, normal]);
             }
             if of.points.len() > MOST_POINTS {
-                // the caller says so
+                // the caller reports that
                 return Ok(of);
             }
         }
@@ -99,8 +99,8 @@ fn of_table(
     Ok(of)
 }
 
-/// The heights of rows from the bottom of an upright patch to its top, half a spacing from both; one in the middle of a
-/// lower patch.
+/// The heights of the rows from the bottom of an upright patch to its top, half a spacing from both; a lower patch has
+/// one row in its middle.
 fn rows(mesh: &Mesh, patches: &Patches, patch: &Patch, spacing: f64) -> Vec<f64> {
     let faces = &patches.faces[patch.faces.start as usize..patch.faces.end as usize];
     let heights = || faces.iter().flat_map(|face| mesh.corners(*face as usize)).map(|corner| f64::from(corner.z));

@@ -1,4 +1,4 @@
-//! The site file as written → what is judged.
+//! The site file as written → the request for a verdict.
 
 use super::areas::areas;
 use super::before::{AskedSite, states};
@@ -18,7 +18,7 @@ use crate::site::written::WrittenSite;
 use chrono::Datelike as _;
 use std::path::Path;
 
-/// Reads and checks what of a site is judged. Of the study only the year of its date is used. Sides that only rays can tell
+/// Reads and checks what is judged of a site. Only the year of the study's date is used. Sides that only rays can tell
 /// are left to `study::settle`.
 ///
 /// # Errors
@@ -73,7 +73,7 @@ pub fn load_judged(path: &Path, asked: &Overrides) -> Result<JudgedSite, SiteErr
     })
 }
 
-/// That glass whose windows are judged casts nothing.
+/// A note that the glass of judged windows does not cast.
 fn note_glass(names: Vec<String>) -> Option<Message> {
     let (components, they) = match names.len() {
         0 => return None,

@@ -1,7 +1,7 @@
-//! What of a site is judged by a rule, and the states that are compared: the tables `[[area]]`, `[[window]]`, `[[facade]]`,
+//! What a rule judges of a site, and the states that are compared: the tables `[[area]]`, `[[window]]`, `[[facade]]`,
 //! `[plot]` and `[before]` of the site file → [`JudgedSite`].
 //!
-//! A file for each table; `rings`, `outline_file`, `glass` and `rooms` are what they are made of.
+//! Each table has a file, which uses `rings`, `outline_file`, `glass` and `rooms`.
 
 mod areas;
 mod asked_table;

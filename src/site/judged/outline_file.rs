@@ -11,18 +11,18 @@ use glam::{DVec2, DVec3};
 /// The polygons of one feature, metres east and north of the place.
 #[derive(Debug)]
 pub(super) struct PlacedOutline {
-    /// What the file calls it.
+    /// Its name in the file, if it has one.
     pub(super) name: Option<String>,
     /// Its number in the file, from 1.
     pub(super) number: u64,
-    /// All borders and holes.
+    /// Its borders and holes.
     pub(super) rings: Vec<Vec<DVec2>>,
 }
 
-/// The polygons of a file that a table names, and what should be known of how they were read.
+/// The polygons of a file that a table names, and notes on how they were read.
 ///
 /// # Errors
-/// What cannot be read, a reference system that is not known, and coordinates where that does not reach.
+/// A file that cannot be read, an unknown reference system, and coordinates outside the area that it covers.
 pub(super) fn outlines(
     table: &AskedTable,
     (name, crs): (&str, Option<&str>),
@@ -37,7 +37,7 @@ pub(super) fn outlines(
     let key = if crs.is_some() { "crs" } else { "file" };
     let crs = crs.or(of_file).map(|text| Crs::read(text).map_err(|error| table.wrong(key, error))).transpose()?;
     if crs.is_some() {
-        // what was said of coordinates without a system
+        // the note on coordinates without a reference system
         notes.retain(|_| coordinates != Coordinates::Local);
     }
     for left in &left_out {

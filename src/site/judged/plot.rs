@@ -11,15 +11,15 @@ use crate::site::written::WrittenSite;
 use crate::sun::Place;
 use glam::DVec2;
 
-/// No road is wider, metres.
+/// The greatest width of a road, metres.
 const WIDEST_M: f64 = 1000.0;
-/// No ground lies higher or lower, metres.
+/// The greatest height of the ground above or below zero, metres.
 const HIGHEST_M: f64 = 1e5;
 
-/// The plot of a site file, where there is one, and what should be known of it.
+/// The plot of a site file, if there is one, and notes on it.
 ///
 /// # Errors
-/// What is wrong with it.
+/// The first error in its table.
 pub(super) fn plot(written: &WrittenSite, place: &Place) -> Result<(Option<JudgedPlot>, Vec<Message>), SiteError> {
     let Some(plot) = &written.site.plot else { return Ok((None, Vec::new())) };
     let table = AskedTable { written, name: "plot", at: (0, 1) };
@@ -51,7 +51,7 @@ pub(super) fn plot(written: &WrittenSite, place: &Place) -> Result<(Option<Judge
 /// What adjoins each side of a border.
 fn sides(table: &AskedTable, plot: &PlotTable, ring: &CheckedRing) -> Result<Vec<PlotSide>, SiteError> {
     let count = ring.corners.len();
-    // a side is numbered by the corner at which it begins as it was written
+    // a side has the number of the corner at which it begins in the order that was written
     let begins = |side: usize| if ring.is_reversed { (side + 1) % count } else { side };
     let side_of = |key: &str, number: u64| {
         let found = (0..count).find(|side| ring.numbers[begins(*side)] as u64 == number);
@@ -65,7 +65,7 @@ fn sides(table: &AskedTable, plot: &PlotTable, ring: &CheckedRing) -> Result<Vec
         })
     };
     let twice = |key: &str, number: u64| {
-        let message = message![format!("side {number} is there twice"); "write each side once"];
+        let message = message![format!("side {number} appears twice"); "write each side once"];
         Err(table.wrong(key, message))
     };
     let mut sides = vec![PlotSide::default(); count];

@@ -9,7 +9,7 @@ use crate::sun::Place;
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
-/// A checked site with everything in it that a rule may judge.
+/// A checked site with everything that a rule may judge.
 #[derive(Clone, Debug)]
 pub struct JudgedSite {
     /// The site file, as the user named it, for errors.
@@ -66,7 +66,7 @@ pub struct JudgedArea {
 pub enum AreaSurface {
     /// A level plane at this z.
     Level(f64),
-    /// So many metres above the ground below: the terrain, or beside it the plane of the ground.
+    /// This many metres above the ground below: the terrain, or beside it the plane of the ground.
     Ground(f64),
     /// On these triangles, which look upward.
     Faces(Vec<[DVec3; 3]>),
@@ -85,12 +85,13 @@ pub struct JudgedWindow {
     pub corners: [DVec3; 4],
     /// The glass's unit normal, away from the room.
     pub outward: DVec3,
-    /// The corners of the glass's other face as they are seen from there, where nothing says which of the two is outside.
-    /// `study::settle` takes the more open one and leaves none here.
+    /// The corners of the glass's other face as seen from that side, if it is not known which of the two is outside.
+    /// `study::settle` takes the more open one and leaves `None` here.
     pub other_side: Option<[DVec3; 4]>,
-    /// The distance from the glass out to the wall's outer plane, metres; as `study::settle` measures it where it is not said.
+    /// The distance from the glass out to the wall's outer plane, metres. If it is not given, `study::settle` measures
+    /// it.
     pub reveal_m: f64,
-    /// Whether the site says the reveal.
+    /// Whether the site file gives the reveal.
     pub reveal_is_said: bool,
     /// The distance from the glass in to the wall's inner plane, metres, if it is known.
     pub inner_m: Option<f64>,
@@ -102,7 +103,7 @@ pub struct JudgedWindow {
     pub dwelling: Option<String>,
     /// The room's use in the words of a rule's `all_of`, if the site has it.
     pub usage: Option<String>,
-    /// The floor area of its room, square metres, where the site says it.
+    /// The floor area of its room, square metres, if the site has it.
     pub room_m2: Option<f64>,
 }
 
@@ -113,8 +114,8 @@ pub struct JudgedFacade {
     pub name: String,
     /// Points on it, each with the outward normal of its wall.
     pub points: Vec<[DVec3; 2]>,
-    /// Those of them, by their index, of which nothing says that the normal looks outward. `study::settle` turns what is more
-    /// open behind and leaves none here.
+    /// The indices of those points of which it is not known whether the normal looks outward. `study::settle` turns the
+    /// ones that are more open behind, and leaves none here.
     pub doubtful: Vec<usize>,
 }
 

@@ -1,23 +1,24 @@
-//! Borders from above: whether they bound areas, and which way round they run.
+//! Borders in plan: whether they bound areas, and their direction.
 
 use crate::message::{Message, message};
 use glam::DVec2;
 
-/// Corners and sides nearer to each other than this touch, metres.
+/// Corners and sides that are nearer to each other than this touch, metres.
 const TOUCH_M: f64 = 1e-6;
-/// No corner lies farther from the place, metres: there the sun is another one, and coordinates of a map lie there.
+/// The greatest distance of a corner from the place, metres: farther away, the sun's direction differs, and a larger
+/// number is a map's coordinate.
 const FARTHEST_M: f64 = 50_000.0;
-/// No more corners have the borders of one area.
+/// The most corners of one area's borders.
 const MOST_CORNERS: usize = 20_000;
 
-/// A border with its corners' numbers as they are written, from 1.
+/// A border, with its corners' numbers in the order that was written, from 1.
 #[derive(Clone, Debug)]
 pub(super) struct CheckedRing {
     /// Counter-clockwise as an outer border, clockwise as a hole.
     pub(super) corners: Vec<DVec2>,
     /// The number of each corner.
     pub(super) numbers: Vec<usize>,
-    /// Whether it was written the other way round.
+    /// Whether it was written in the opposite direction.
     pub(super) is_reversed: bool,
 }
 
@@ -30,10 +31,11 @@ struct RingSide {
     to: DVec2,
 }
 
-/// The borders of one area as they are meant: those within an even number of others are outer borders, the others holes.
+/// The borders of one area as they are meant: those within an even number of others are outer borders, and the others
+/// are holes.
 ///
 /// # Errors
-/// What is wrong with them, in one message that names the corner.
+/// A message that says what is wrong, and names the corner.
 pub(super) fn checked(written: &[Vec<DVec2>]) -> Result<Vec<CheckedRing>, Message> {
     let count: usize = written.iter().map(Vec::len).sum();
     if count > MOST_CORNERS {
@@ -70,7 +72,11 @@ pub(super) fn checked(written: &[Vec<DVec2>]) -> Result<Vec<CheckedRing>, Messag
 /// The corners of one border without repeats.
 fn ring(written: &[DVec2], of: &str) -> Result<CheckedRing, Message> {
     if let Some(at) = written.iter().position(|corner| !corner.is_finite() || corner.abs().max_element() > FARTHEST_M) {
-        let what = format!("has a corner, number {} {of}at {}, that is no point within 50 km", at + 1, written[at]);
+        let what = format!(
+            "has a corner, number {} {of}at {}, that is not a point within 50 km of the place",
+            at + 1,
+            written[at]
+        );
         return Err(message![what; "write metres east and north of the place, for example [12.0, -3.0]"]);
     }
     let mut ring = CheckedRing { corners: Vec::new(), numbers: Vec::new(), is_reversed: false };
@@ -100,7 +106,8 @@ fn ring(written: &[DVec2], of: &str) -> Result<CheckedRing, Message> {
     Ok(ring)
 }
 
-/// Twice the area, positive counter-clockwise; around the first corner, so that far areas are as exact as near ones.
+/// Twice the area, positive if counter-clockwise; relative to the first corner, so that far areas are as exact as near
+/// ones.
 fn signed_area(corners: &[DVec2]) -> f64 {
     let first = corners[0];
     corners.windows(2).map(|pair| (pair[0] - first).perp_dot(pair[1] - first)).sum()
@@ -118,7 +125,7 @@ fn is_within(at: DVec2, corners: &[DVec2]) -> bool {
     is_within
 }
 
-/// The first two sides found that cross or touch, or turn back on each other.
+/// Finds two sides that cross or touch, or of which one turns back on the other.
 fn meeting(rings: &[CheckedRing]) -> Option<[RingSide; 2]> {
     let mut sides: Vec<RingSide> = Vec::new();
     for (ring, of) in rings.iter().enumerate() {
@@ -130,7 +137,7 @@ fn meeting(rings: &[CheckedRing]) -> Option<[RingSide; 2]> {
             to: next(index),
         }));
     }
-    // by where they begin in the west, so that only what lies beside each other is compared
+    // sorted by their western ends, so that only sides beside each other are compared
     sides.sort_unstable_by(|one, other| west(one).total_cmp(&west(other)));
     for (at, one) in sides.iter().enumerate() {
         let east = one.from.x.max(one.to.x) + TOUCH_M;
@@ -143,7 +150,7 @@ fn meeting(rings: &[CheckedRing]) -> Option<[RingSide; 2]> {
             let count = rings[one.ring].corners.len();
             let follows = |first: &RingSide, then: &RingSide| (first.index + 1) % count == then.index;
             let meets = match one.ring == other.ring {
-                // of three sides each follows each
+                // in a triangle each side follows both others
                 true if follows(one, other) => turns_back(one, other),
                 true if follows(other, one) => turns_back(other, one),
                 _ => distance(one, other) <= TOUCH_M,
@@ -160,7 +167,7 @@ fn west(side: &RingSide) -> f64 {
     side.from.x.min(side.to.x)
 }
 
-/// Whether a side runs back along the one before it.
+/// Whether a side turns back along the one before it.
 fn turns_back(first: &RingSide, then: &RingSide) -> bool {
     to_side(then.to, first) <= TOUCH_M || to_side(first.from, then) <= TOUCH_M
 }
@@ -171,7 +178,7 @@ fn to_side(at: DVec2, side: &RingSide) -> f64 {
     at.distance(side.from + along * share)
 }
 
-/// Between two sides; 0 where they cross.
+/// The distance between two sides; 0 if they cross.
 fn distance(one: &RingSide, other: &RingSide) -> f64 {
     let beside = |side: &RingSide, at: DVec2| (side.to - side.from).perp_dot(at - side.from);
     let parts = |side: &RingSide, of: &RingSide| (beside(side, of.from) > 0.0) != (beside(side, of.to) > 0.0);
@@ -182,7 +189,7 @@ fn distance(one: &RingSide, other: &RingSide) -> f64 {
     ends.into_iter().fold(f64::INFINITY, f64::min)
 }
 
-/// That two sides meet that must not.
+/// The message that two sides meet.
 fn crossing(rings: &[CheckedRing], [one, other]: [RingSide; 2], of: &dyn Fn(usize) -> String) -> Message {
     let side = |side: &RingSide| {
         let ring = &rings[side.ring];

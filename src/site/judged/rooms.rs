@@ -1,4 +1,4 @@
-//! A table of windows with their rooms → what is known of each window.
+//! A table of windows with their rooms → the properties of each window.
 
 use super::request::JudgedWindow;
 use super::windows::AskedWindows;
@@ -13,10 +13,10 @@ use crate::site::written::WrittenSite;
 use rustc_hash::FxHashMap;
 use std::path::{Path, PathBuf};
 
-/// The columns; all but the first may be absent.
+/// The columns, of which all but the first may be absent.
 const COLUMNS: [&str; 6] = ["window", "room", "dwelling", "usage", "floor", "room_area"];
 
-/// What a line says of a window.
+/// A line about a window.
 #[derive(Debug, Default)]
 struct RoomLine {
     line: usize,
@@ -28,11 +28,11 @@ struct RoomLine {
     room_m2: Option<f64>,
 }
 
-/// Gives each window what the tables of rooms say of it.
+/// Sets the properties of windows that the tables of rooms give.
 ///
 /// # Errors
-/// What cannot be read of a table, a window that is not there or stands twice, a room without a window, and a room with two
-/// floor areas.
+/// A table that cannot be read, a window that does not exist or has two lines, a room without a window, and a room with
+/// two floor areas.
 pub(super) fn add_rooms(written: &WrittenSite, asked: &mut AskedWindows) -> Result<(), SiteError> {
     let tables = &written.site.window;
     let mut read: Vec<PathBuf> = Vec::new();
@@ -55,7 +55,7 @@ pub(super) fn add_rooms(written: &WrittenSite, asked: &mut AskedWindows) -> Resu
     one_area_each(written, asked)
 }
 
-/// Gives some windows what one file says; and which of them it does not name.
+/// Sets the properties that one file gives. Returns a note on the windows that it does not name.
 fn add_file(
     path: &Path,
     name: &str,
@@ -128,10 +128,10 @@ fn lines(file: &str, text: &str) -> Result<Vec<RoomLine>, SiteError> {
         };
         let number = |name: &str, low: f64, high: f64| {
             let Some(text) = text(name) else { return Ok(None) };
-            // where a semicolon stands between fields, a comma may stand in numbers
+            // if fields are separated by semicolons, numbers may have a decimal comma
             let plain = if separator == ';' { text.replace(',', ".") } else { text.clone() };
             let number = plain.parse::<f64>().ok().filter(|number| (low..=high).contains(number));
-            let what = || message![format!("{name} is \"{text}\" and no number between {low} and {high}"); "write for example 3.2"];
+            let what = || message![format!("{name} is \"{text}\", which is not a number between {low} and {high}"); "write for example 3.2"];
             number.map(Some).ok_or_else(|| refuse(at(), what()))
         };
         found.push(RoomLine {
@@ -147,18 +147,21 @@ fn lines(file: &str, text: &str) -> Result<Vec<RoomLine>, SiteError> {
     Ok(found)
 }
 
-/// Which column each field of the first line names.
+/// The column of each field of the first line.
 fn columns(file: &str, fields: &[String]) -> Result<Vec<&'static str>, SiteError> {
     let mut columns = Vec::new();
     for field in fields {
         let name = field.trim().to_lowercase();
         let Some(column) = COLUMNS.iter().find(|column| **column == name).copied() else {
-            let what = format!("\"{}\" is no column", field.trim());
+            let what = format!("\"{}\" is not a column", field.trim());
             let nearest = nearest(&name, COLUMNS).unwrap_or_default();
             return Err(refuse(line_of(file, 1), message![what; format!("the nearest is {nearest}")]));
         };
         if columns.contains(&column) {
-            return Err(refuse(line_of(file, 1), message![format!("{column} is there twice"); "leave one out"]));
+            return Err(refuse(
+                line_of(file, 1),
+                message![format!("the column {column} appears twice"); "leave one out"],
+            ));
         }
         columns.push(column);
     }

@@ -11,34 +11,34 @@ use crate::site::laid::pieces;
 use crate::site::written::WrittenSite;
 use glam::DVec3;
 
-/// No more windows are judged at once.
+/// The most windows that are judged at once.
 const MOST_WINDOWS: usize = 100_000;
-/// Of a pane that fills less of its rectangle a note says so.
+/// A pane that fills a smaller share of its rectangle gets a note.
 const RECTANGLE: f64 = 0.9;
-/// No floor or sill lies farther from the place's point, metres.
+/// The greatest distance of a floor or sill from the place's point, metres.
 const FARTHEST_M: f64 = 1e5;
-/// No wall is thicker, metres.
+/// The greatest thickness of a wall, metres.
 const THICKEST_M: f64 = 10.0;
-/// No room is larger, square metres.
+/// The greatest area of a room, square metres.
 const LARGEST_M2: f64 = 1e6;
 
 /// The windows of a site file.
 #[derive(Debug, Default)]
 pub(super) struct AskedWindows {
-    /// All of them.
+    /// All windows.
     pub(super) list: Vec<JudgedWindow>,
-    /// Of each the index of its table.
+    /// For each window, the index of its table.
     pub(super) of_table: Vec<usize>,
     /// For each component, whether its pieces are windows.
     pub(super) is_glass: Vec<bool>,
-    /// What should be known of them.
+    /// Notes on them.
     pub(super) notes: Vec<Message>,
 }
 
-/// The windows of a site file, but for what a table of rooms says of them.
+/// The windows of a site file, without what a table of rooms says about them.
 ///
 /// # Errors
-/// The first that is none.
+/// The first window that is wrong.
 pub(super) fn windows(written: &WrittenSite, mesh: &Mesh) -> Result<AskedWindows, SiteError> {
     let mut asked = AskedWindows { is_glass: vec![false; mesh.components.len()], ..AskedWindows::default() };
     for (index, window) in written.site.window.iter().enumerate() {
@@ -63,7 +63,7 @@ pub(super) fn windows(written: &WrittenSite, mesh: &Mesh) -> Result<AskedWindows
     Ok(asked)
 }
 
-/// What a table says of all of its windows.
+/// What a table says about all of its windows.
 fn plain(table: &AskedTable, window: &WindowTable) -> Result<JudgedWindow, SiteError> {
     let reveal = table.within("reveal", window.reveal, 0.0, THICKEST_M)?;
     Ok(JudgedWindow {
@@ -118,7 +118,7 @@ fn add_panes(
             });
             asked.of_table.push(table.at.0);
             if asked.list.len() > MOST_WINDOWS {
-                // the caller says so
+                // the caller reports that
                 return Ok(());
             }
         }
@@ -141,7 +141,7 @@ fn add_panes(
     Ok(())
 }
 
-/// Numbers windows of one name, and refuses names that are written twice.
+/// Numbers the windows that share a name, and refuses names that are written twice.
 fn tell_apart(asked: &mut AskedWindows, written: &WrittenSite) -> Result<(), SiteError> {
     let mut names = TakenNames::default();
     let count = written.site.window.len();
@@ -150,7 +150,7 @@ fn tell_apart(asked: &mut AskedWindows, written: &WrittenSite) -> Result<(), Sit
         if !names.take(&window.name) {
             let what = format!("\"{}\" is the name of another window, too", window.name);
             let table = AskedTable { written, name: "window", at: (*index, count) };
-            return Err(table.wrong("name", message![what; "name each otherwise"]));
+            return Err(table.wrong("name", message![what; "give each its own name"]));
         }
     }
     let mut counts: rustc_hash::FxHashMap<String, usize> = rustc_hash::FxHashMap::default();

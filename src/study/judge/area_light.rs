@@ -12,10 +12,10 @@ use crate::sunlight::JudgedPoint;
 use glam::DVec3;
 use std::collections::HashMap;
 
-/// Both states, for all areas.
+/// The light of areas in both states.
 pub(super) type AreaStates = BothStates;
 
-/// Points no farther out than which all points of areas lie.
+/// Points that bound all points of the areas.
 pub(super) fn reach_of(areas: &[JudgedArea], states: &[&JudgedState]) -> Vec<DVec3> {
     let bounds = states.iter().filter_map(|state| state.mesh.bounds());
     let heights: Vec<f64> =
@@ -37,7 +37,7 @@ pub(super) struct AreaPlace<'a> {
     judging: &'a Judging<'a>,
     states: &'a AreaStates,
     surface: &'a AreaSurface,
-    /// When a sun that counts would shine, by the slope.
+    /// When a sun that counts would shine with nothing in its way, for each slope.
     open: HashMap<[u64; 3], Vec<Vec<Spell>>>,
 }
 
@@ -59,7 +59,7 @@ impl<'a> AreaPlace<'a> {
         AreaPlace { judging, states, surface, open }
     }
 
-    /// When a point is lit.
+    /// The times at which a point is lit.
     pub(super) fn light(&self, spot: &AreaSpot) -> Result<PointLight, SunError> {
         let open = &self.open[&slope(spot.normal)];
         let of_state = |search: &StateSearch| search.lit(&self.judged(search, spot), self.judging.days, open);
@@ -68,12 +68,12 @@ impl<'a> AreaPlace<'a> {
         Ok(PointLight { open: open.clone(), now, before })
     }
 
-    /// Where it is judged in the state that is asked for.
+    /// Where a point is judged in the state that is judged.
     pub(super) fn judged_now(&self, spot: &AreaSpot) -> JudgedPoint {
         self.judged(&self.states.now, spot)
     }
 
-    /// Where it is judged in a state.
+    /// Where a point is judged in a given state.
     fn judged(&self, search: &StateSearch, spot: &AreaSpot) -> JudgedPoint {
         match (self.surface, spot.normal) {
             (AreaSurface::Level(z), _) => search.at_level(spot.at.with_z(*z)),

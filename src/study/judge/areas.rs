@@ -15,48 +15,48 @@ use crate::sun::SunError;
 use crate::sunlight::JudgedPoint;
 use rayon::prelude::*;
 
-/// So many points are searched between two looks at the listener.
+/// The number of points that are searched between two calls of the listener.
 const POINTS_TOGETHER: usize = 256;
 
-/// Who takes an area's sun is asked at so many of its points.
+/// The number of an area's points at which its takers are sought.
 const MOST_ASKED: usize = 48;
 
-/// A side of the first triangles is this part of the side of a square as large as the area.
+/// The greatest side of the first triangles, as a part of the side of a square with the area's size.
 const SIDES_ACROSS: f64 = 16.0;
-/// Where every day of a year is summed the first triangles are larger, and there are fewer points.
+/// If every day of a year is summed, the first triangles are larger and there are fewer points.
 const SIDES_ACROSS_OF_SUMS: f64 = 10.0;
 
-/// A part of an area is known to this part of it, if its points suffice.
+/// The greatest error of a part of an area, as a share of the area, unless it would take too many points.
 const GOOD_SHARE: f64 = 0.001;
 const MOST_POINTS: usize = 40_000;
 
-/// Area times time is known to this part of itself, if its points suffice.
+/// The greatest error of area times time, as a share of it, unless it would take too many points.
 const GOOD_LOAD: f64 = 0.005;
 const MOST_POINTS_OF_SUMS: usize = 1500;
 
 /// What a rule asks of an area.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum AreaQuestion {
-    /// Which part of it keeps the demand.
+    /// The part of it that keeps the demand.
     Part,
     /// How much shadow falls on it, area times time.
     Load,
-    /// When new shadow lies on any of it.
+    /// The times at which new shadow lies on any part of it.
     NewShadow,
     /// Whether its worst point keeps the demand.
     Worst,
 }
 
-/// A ruling, and what is told with it.
+/// A ruling, and what is reported with it.
 pub(super) struct AreaAnswer {
     pub(super) receiver: ReceiverRuling,
-    /// At the point that decides; nothing where no point does.
+    /// The light of the point that decides, if one does.
     pub(super) light: Option<PointLight>,
-    /// Some points that do not keep the demand, for asking who takes their sun; none of an area that passes.
+    /// Some points that do not keep the demand, at which takers are sought; empty if the area passes.
     pub(super) shaded: Vec<(JudgedPoint, PointLight)>,
 }
 
-/// An area while it is judged.
+/// An area that is being judged.
 struct AreaWork<'w> {
     judging: &'w Judging<'w>,
     place: AreaPlace<'w>,
@@ -64,7 +64,7 @@ struct AreaWork<'w> {
     m2: f64,
 }
 
-/// One area.
+/// Judges one area.
 pub(super) fn area(
     judging: &Judging<'_>,
     states: &AreaStates,
@@ -111,7 +111,7 @@ fn is_of_part(criterion: &Criterion) -> bool {
 }
 
 impl AreaWork<'_> {
-    /// The numbers of the days and criteria that are of parts of areas.
+    /// The numbers of the days and of those of their criteria that ask for a part of the area.
     fn asked(&self) -> Vec<(usize, usize)> {
         let judging = self.judging;
         let of_day = |day: usize| {
@@ -156,7 +156,7 @@ impl AreaWork<'_> {
         self.answer(ruling, error_m2, at)
     }
 
-    /// With the point that has the lowest of a number as the one that decides.
+    /// Makes the point with the lowest number the one that decides.
     fn answer(&self, ruling: Ruling, error_m2: f64, number: usize) -> Result<AreaAnswer, StudyError> {
         let value = |spot: usize| self.samples.values[spot][number];
         let lowest = (0..self.samples.spots.len()).min_by(|one, other| value(*one).total_cmp(&value(*other)));
@@ -166,7 +166,7 @@ impl AreaWork<'_> {
         Ok(self.told(ruling, error_m2, (spot, light), shaded))
     }
 
-    /// Some points whose number is below 0, spread over all of them.
+    /// Some of the points whose number is below 0, spread evenly over their list.
     fn some_below(&self, number: usize) -> Result<Vec<(JudgedPoint, PointLight)>, SunError> {
         let values = &self.samples.values;
         let below: Vec<usize> = (0..values.len()).filter(|spot| values[*spot][number] < 0.0).collect();
@@ -206,7 +206,7 @@ impl AreaWork<'_> {
     fn load(mut self, steps: &mut Steps<'_, '_>) -> Result<AreaAnswer, StudyError> {
         let judging = self.judging;
         let days = judging.days.days;
-        // the last number is the sum of all days: it alone says where to look closer
+        // the last number is the sum of all days, which alone decides which triangles are split
         let value = |spot: &AreaSpot| -> Result<Vec<f64>, SunError> {
             let light = self.place.light(spot)?.counted();
             let secs = |day: usize| total_secs(&light.new_shadow(day)) as f64;
@@ -259,7 +259,7 @@ impl AreaWork<'_> {
             Ok(self.place.light(spot)?.counted().ruling(judging.rule, None, judging.days.days)?)
         };
         if let Some(first) = self.samples.spots.first() {
-            // what the rule needs and nobody says is the same everywhere
+            // an error about missing values is the same at all points
             ruling(first)?;
         }
         let value = |spot: &AreaSpot| -> Result<Vec<f64>, SunError> {
@@ -283,7 +283,8 @@ impl AreaWork<'_> {
     }
 }
 
-/// A worst point that keeps its limit by less than the search last found it lower may not be the worst.
+/// If the worst point's margin is smaller than what the last steps of the search lowered it by, there may be a worse
+/// one.
 pub(super) fn close_where_near(ruling: &mut Ruling, lowered: f64) {
     let (rank, margin) = merit(ruling);
     let is_near = ruling.verdict == Verdict::Pass && rank == 2 && margin >= 0.0 && margin < lowered;
@@ -292,7 +293,7 @@ pub(super) fn close_where_near(ruling: &mut Ruling, lowered: f64) {
     }
 }
 
-/// By how much a point keeps each demand, seconds, now and before.
+/// The margin by which a point keeps each demand, in seconds, now and before.
 fn margins(judging: &Judging<'_>, light: &CountedLight, asked: &[(usize, usize)]) -> Vec<f64> {
     let days = light.days(judging.days.days);
     let mut found = Vec::with_capacity(asked.len() * 2);
@@ -307,7 +308,7 @@ fn margins(judging: &Judging<'_>, light: &CountedLight, asked: &[(usize, usize)]
 }
 
 fn margin(judging: &Judging<'_>, number: usize, light: &DayLight<'_>) -> f64 {
-    // a missing state is asked for before
+    // a missing state before is an error that comes earlier
     let count = judging.rule.tally(number, light).unwrap_or_default();
     match judging.rule.criteria[number].demand {
         Demand::AtLeast { secs, longest_secs } => {

@@ -1,4 +1,4 @@
-//! The flow of a judgement.
+//! The steps of a judgement, in their order.
 
 use super::super::{OnEvent, StudyError, note_models};
 use super::days::{JudgedDays, hulls};
@@ -11,7 +11,7 @@ use crate::judgement::Judgement;
 use crate::rules::{CompareWith, ResolvedRule, RuleSource, Ruling, Verdict};
 use crate::site::JudgedSite;
 
-/// What a rule says of a site.
+/// Judges a site by a rule.
 ///
 /// # Errors
 /// [`StudyError`]; [`StudyError::Rule`] with all that the rule needs and the site does not say.
@@ -26,7 +26,7 @@ pub fn judge(
     let calendar = rule.calendar(&site.place, site.year)?;
     let hulls = hulls(&site.place, &calendar)?;
     let days = JudgedDays::new(site, rule.cuts, &calendar, &hulls)?;
-    // a body that the law allows is none of the states that a site has
+    // no state of a site is a body that the law allows
     let before = site.before.as_ref().filter(|_| rule.compare != Some(CompareWith::Reference));
     let judging = Judging { site, rule, days: &days, before };
     let Some(first) = hulls.first() else { return Err(StudyError::NoDay) };

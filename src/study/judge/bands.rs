@@ -1,4 +1,4 @@
-//! The plane around a plot: the worst place of each of its strips.
+//! The plane around a plot: the worst place of each band.
 
 use super::super::StudyError;
 use super::areas::close_where_near;
@@ -12,38 +12,38 @@ use crate::sun::SunError;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-/// From place to place along the inner line of a strip, metres.
+/// The distance between places along a band's inner line, metres.
 const SPACING_M: f64 = 0.5;
 
-/// So many of the worst places are looked around.
+/// The number of worst places around which worse ones are sought.
 const STARTS: usize = 8;
 
-/// Around a place steps are halved down to this, metres.
+/// The smallest step of the search around a place, metres.
 const FINEST_M: f64 = 0.01;
 
-/// A search that goes from place to place ends after so many looks around.
+/// The most steps of a search that moves from place to place.
 const MOST_LOOKS: usize = 100;
 
-/// Nobody looks for shadow farther out than this, metres.
+/// Shadow is not sought farther out than this, metres.
 const FARTHEST_M: f64 = 2000.0;
 
-/// Places that are searched between two looks at the listener.
+/// The number of places that are searched between two calls of the listener.
 const TOGETHER: usize = 256;
 
-/// What is judged around a plot.
+/// The bands around a plot, ready to be searched.
 pub(super) struct BandWork<'w> {
     judging: &'w Judging<'w>,
     border: DeemedBorder,
-    /// Without what is raised.
+    /// The height of the plane where no neighbour raises it.
     plane_z: f64,
     bands: Vec<Band>,
     reach_m: f64,
     states: BothStates,
-    /// When a sun that counts would shine, on each day.
+    /// When a sun that counts would shine with nothing in its way, on each day.
     open: Vec<Vec<Spell>>,
 }
 
-/// A place, and its ruling.
+/// A place with its ruling.
 #[derive(Clone)]
 struct JudgedPlace {
     at: PlotSpot,
@@ -51,7 +51,7 @@ struct JudgedPlace {
 }
 
 impl<'w> BandWork<'w> {
-    /// Of a rule of lines and a site that says what it needs; nothing for other rules.
+    /// Returns `None` if the rule has no bands, or the site lacks something that it needs.
     pub(super) fn new(judging: &'w Judging<'w>, plot: &JudgedPlot) -> Option<BandWork<'w>> {
         let RuleReceiver::Lines { height_m, over, deemed, bands, corners } = &judging.rule.receiver else {
             return None;
@@ -66,7 +66,7 @@ impl<'w> BandWork<'w> {
         let top = judging.site.now.mesh.top();
         let low_deg = judging.days.lowest_deg().unwrap_or(90.0).max(0.5);
         let reach_m = ((top - plane_z).max(0.0) / low_deg.to_radians().tan()).min(FARTHEST_M);
-        // shadows begin at what casts, which may stand beyond the border
+        // casters may stand beyond the border, so shadows are measured from them
         let corners = border.corners();
         let far =
             |at: DVec2| [DVec2::new(1.0, 1.0), DVec2::new(-1.0, -1.0)].map(|way| at + way * (reach_m + FARTHEST_M));
@@ -83,12 +83,12 @@ impl<'w> BandWork<'w> {
         })
     }
 
-    /// How many strips there are.
+    /// The number of bands.
     pub(super) fn count(&self) -> usize {
         self.bands.len()
     }
 
-    /// One strip.
+    /// Judges one band.
     pub(super) fn band(
         &self,
         number: usize,
@@ -153,7 +153,8 @@ impl<'w> BandWork<'w> {
         Ok(JudgedPlace { at, ruling })
     }
 
-    /// The worst place around a place, by steps that are halved; and by how much the last two halvings found it worse.
+    /// Searches around a place with steps that are halved. Returns the worst place, and how much worse the last two
+    /// halvings made it.
     fn lower(&self, mut place: JudgedPlace, number: usize) -> Result<(JudgedPlace, f64), StudyError> {
         let band = self.bands[number];
         let mut step = SPACING_M.max(self.border.distance_m(place.at.at) * 0.05);

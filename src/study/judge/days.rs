@@ -1,4 +1,4 @@
-//! A rule's days as they are for all points.
+//! A rule's days, with what is the same for all points.
 
 use super::super::StudyError;
 use crate::rules::{DaySun, GrazingIn, RuleDay, Spell, SunCuts, common, merged};
@@ -9,21 +9,21 @@ use chrono::{DateTime, TimeZone};
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// So many days are searched together.
+/// The number of days that are searched together.
 const DAYS_TOGETHER: usize = 32;
 
-/// A rule's days, with the sun of each.
+/// The days of a rule, each with its sun.
 pub(super) struct JudgedDays<'a> {
-    /// In the calendar's order.
+    /// In the order of the calendar.
     pub(super) days: &'a [RuleDay],
-    /// When anything is counted, of each day.
+    /// For each day, the times at which anything is counted.
     pub(super) windows: Vec<Vec<Spell>>,
     searched: Vec<SearchedDays<'a>>,
     suns: Vec<DaySun>,
     cuts: SunCuts,
 }
 
-/// From the first to the last second that each day asks.
+/// From the first to the last second that is needed on each day.
 pub(super) fn hulls(place: &Place, days: &[RuleDay]) -> Result<Vec<DayWindow>, SunError> {
     days.par_iter()
         .map(|day| {
@@ -38,14 +38,14 @@ pub(super) fn hulls(place: &Place, days: &[RuleDay]) -> Result<Vec<DayWindow>, S
         .collect()
 }
 
-/// The clock's time at a second since 1970.
+/// The local time at a second since 1970.
 pub(super) fn time(place: &Place, secs: i64) -> DateTime<Zone> {
-    // a day's windows lie within the years that chrono knows
+    // a day's windows are within the years that chrono supports
     let utc = DateTime::from_timestamp(secs, 0).unwrap_or_default().naive_utc();
     place.time_zone.from_utc_datetime(&utc)
 }
 
-/// The windows of a day and of single criteria together.
+/// The windows of a day and those of its criteria, merged.
 fn windows_of(day: &RuleDay) -> Vec<Spell> {
     merged(day.windows.iter().chain(day.criteria.iter().flatten().flatten()).copied())
 }
@@ -69,24 +69,24 @@ impl<'a> JudgedDays<'a> {
         Ok(JudgedDays { days, windows: days.iter().map(windows_of).collect(), searched, suns, cuts })
     }
 
-    /// When a sun that counts would shine on a receiver if nothing stood there, on each day; a window or a façade looks
+    /// When a sun that counts would shine on a receiver with nothing in its way, on each day. A window or a façade looks
     /// outward.
     pub(super) fn open(&self, outward: Option<DVec3>) -> Vec<Vec<Spell>> {
         self.suns.iter().map(|sun| sun.open(&self.cuts, outward)).collect()
     }
 
-    /// The same of a place on an area: it has no façade, and only its own slope hides the sun.
+    /// The same for a place on an area, which has no façade: only its own slope hides the sun.
     pub(super) fn open_on_area(&self, normal: Option<DVec3>) -> Vec<Vec<Spell>> {
         let cuts = SunCuts { off_facade_deg: 0.0, off_facade_in: GrazingIn::Space, ..self.cuts };
         self.suns.iter().map(|sun| sun.open(&cuts, normal)).collect()
     }
 
-    /// Those parts of spells in which the sun is before all planes of these normals.
+    /// The parts of spells in which the sun is in front of all planes with these normals.
     pub(super) fn before_planes(&self, open: &[Vec<Spell>], normals: &[DVec3]) -> Vec<Vec<Spell>> {
         self.suns.iter().zip(open).map(|(sun, open)| common(open, &sun.before_planes(normals))).collect()
     }
 
-    /// The lowest sun that counts, degrees.
+    /// The altitude of the lowest sun that counts, degrees.
     pub(super) fn lowest_deg(&self) -> Option<f64> {
         self.suns.iter().filter_map(|sun| sun.lowest_deg(&self.cuts)).min_by(f64::total_cmp)
     }

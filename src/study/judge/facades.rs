@@ -1,4 +1,4 @@
-//! Façades: all their points must keep the rule, and the worst one is told.
+//! Façades: all their points must keep the rule, and the worst one is reported.
 
 use super::super::StudyError;
 use super::judging::{BothStates, Judging, Steps};
@@ -11,10 +11,10 @@ use crate::sun::SunError;
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// So many points are searched between two looks at the listener.
+/// The number of points that are searched between two calls of the listener.
 const TOGETHER: usize = 64;
 
-/// The worst point of a receiver of points.
+/// The worst point of a receiver that consists of points.
 struct Worst {
     point: [DVec3; 2],
     light: PointLight,
@@ -22,7 +22,7 @@ struct Worst {
     ruling: Ruling,
 }
 
-/// One façade, with its points and their ruling.
+/// Judges one façade by its points.
 pub(super) fn facade(
     judging: &Judging<'_>,
     searches: &BothStates,

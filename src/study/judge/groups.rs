@@ -26,7 +26,7 @@ pub(super) struct WindowsJudged<'a> {
     pub(super) rulings: &'a [Ruling],
 }
 
-/// The groups of a rule of windows; none where it judges each window for itself.
+/// The groups of a rule for windows; empty if it judges each window by itself.
 pub(super) fn groups(judged: &WindowsJudged<'_>) -> Result<Vec<GroupRuling>, StudyError> {
     let RuleReceiver::Window { group, all_of, .. } = &judged.rule.receiver else { return Ok(Vec::new()) };
     let mut groups = Vec::new();
@@ -43,7 +43,7 @@ pub(super) fn groups(judged: &WindowsJudged<'_>) -> Result<Vec<GroupRuling>, Stu
     Ok(groups)
 }
 
-/// The verdict of all groups of the widest kind.
+/// The verdict over all groups of the widest kind.
 pub(super) fn of_groups(groups: &[GroupRuling]) -> Option<Verdict> {
     let of = |kind: GroupKind| {
         let verdicts: Vec<Verdict> =
@@ -68,7 +68,7 @@ fn rooms(judged: &WindowsJudged<'_>) -> Result<Vec<GroupRuling>, StudyError> {
     for room in rooms {
         let ruling =
             is_union.then(|| union(judged, &room.windows).ruling(judged.rule, None, judged.days)).transpose()?;
-        // where the rule does not add windows up, one of them is enough for the room
+        // if the rule does not add up windows, one of them is enough for the room
         let of_windows = || Verdict::any(room.windows.iter().map(|at| judged.rulings[*at].verdict));
         groups.push(GroupRuling {
             name: room.name.to_owned(),
@@ -84,7 +84,7 @@ fn rooms(judged: &WindowsJudged<'_>) -> Result<Vec<GroupRuling>, StudyError> {
     Ok(groups)
 }
 
-/// Lit where any of some windows is.
+/// The light of several windows together: lit while any of them is.
 fn union(judged: &WindowsJudged<'_>, windows: &[usize]) -> CountedLight {
     let lights: Vec<CountedLight> = windows.iter().map(|at| judged.lights[*at].light.counted()).collect();
     CountedLight::any(&lights.iter().collect::<Vec<_>>(), judged.days.len())
@@ -125,7 +125,7 @@ fn dwellings(judged: &WindowsJudged<'_>, rooms: &[GroupRuling]) -> Result<Vec<Gr
     Ok(groups)
 }
 
-/// The house by its dwellings, each with its uses.
+/// Judges the house by its dwellings, each with its uses.
 fn house(judged: &WindowsJudged<'_>, all_of: &[String]) -> Result<Vec<GroupRuling>, StudyError> {
     let mut names: Vec<&str> = Vec::new();
     for window in judged.windows {
@@ -185,7 +185,7 @@ fn house(judged: &WindowsJudged<'_>, all_of: &[String]) -> Result<Vec<GroupRulin
     Ok(groups)
 }
 
-/// Whether a dwelling has what the rule asks of so many of them, in each of its uses.
+/// The verdict on a dwelling by its uses: whether each has the sun that the rule asks of a share of the dwellings.
 fn of_uses(rule: &ResolvedRule, uses: &[(String, i64)]) -> Verdict {
     let of = |criterion: &Criterion| match (&criterion.extent, &criterion.demand) {
         (Extent::Dwellings(_), Demand::AtLeast { secs, .. }) => Some(*secs),
@@ -195,7 +195,7 @@ fn of_uses(rule: &ResolvedRule, uses: &[(String, i64)]) -> Verdict {
     if uses.iter().all(|(_, secs)| *secs >= least) { Verdict::Pass } else { Verdict::Fail }
 }
 
-/// What a criterion counts on the day with the least of it.
+/// The number that a criterion counts, on the day with the least.
 fn least_secs(judged: &WindowsJudged<'_>, light: &CountedLight, number: usize) -> Result<i64, StudyError> {
     debug_assert!(judged.rule.counting.what == CountedTime::Sun);
     let mut least = i64::MAX;

@@ -1,4 +1,4 @@
-//! What all receivers share, and how the listener hears of the work.
+//! What all receivers share, and how progress is reported to the listener.
 
 use super::super::{Event, OnEvent, StudyError, tell};
 use super::days::JudgedDays;
@@ -14,7 +14,7 @@ pub(super) struct Judging<'a> {
     pub(super) site: &'a JudgedSite,
     pub(super) rule: &'a ResolvedRule,
     pub(super) days: &'a JudgedDays<'a>,
-    /// The state with which it is compared.
+    /// The state that it is compared with.
     pub(super) before: Option<&'a JudgedState>,
 }
 
@@ -25,18 +25,18 @@ pub(super) struct BothStates {
 }
 
 impl Judging<'_> {
-    /// Both states with what `of` takes of each.
+    /// Both states, with what `of` derives from each.
     pub(super) fn both(&self, of: impl Fn(&JudgedState) -> StateSearch) -> BothStates {
         BothStates { now: of(&self.site.now), before: self.before.map(of) }
     }
 
-    /// Both states as they are, for points no farther out than these.
+    /// Both states, for points within the bounds of these.
     pub(super) fn states(&self, points: &[DVec3]) -> BothStates {
         self.both(|state| StateSearch::of(state, points))
     }
 }
 
-/// What is done, as the listener hears it.
+/// Progress, as it is reported to the listener.
 pub(super) struct Steps<'s, 'e> {
     on_event: &'s mut OnEvent<'e>,
     count: usize,
@@ -54,14 +54,14 @@ impl<'s, 'e> Steps<'s, 'e> {
         Ok(Steps { on_event, count, done: 0, time })
     }
 
-    /// Some more receivers are judged.
+    /// Reports that some more receivers are judged.
     pub(super) fn done(&mut self, more: usize) -> Result<(), StudyError> {
         self.done = (self.done + more).min(self.count);
         let index = self.done.saturating_sub(1);
         tell(self.on_event, Event::Drawn { index, count: self.count, time: self.time, mask: None, bits: None })
     }
 
-    /// Lets the listener end the work.
+    /// Gives the listener a chance to stop the work.
     pub(super) fn poll(&mut self) -> Result<(), StudyError> {
         tell(self.on_event, Event::Stage("judging"))
     }

@@ -1,4 +1,4 @@
-//! What a rule says must keep its sun: the places of each receiver, and how much of which sun.
+//! What must keep its sun by a rule: the places of each receiver, and how much sun must stay at which times.
 
 use super::super::envelope::{DaysNeeded, KeptPlace, KeptThing, SunNeeded};
 use super::super::{OnEvent, StudyError, note_models};
@@ -21,30 +21,31 @@ use rayon::prelude::*;
 pub struct KeptByRule {
     /// Each receiver.
     pub things: Vec<KeptThing>,
-    /// On which of the days.
+    /// Whether all of the days count, or one of them.
     pub needed: DaysNeeded,
     /// The rule's days.
     pub days: Vec<RuleDay>,
 }
 
-/// From place to place on an area: so many to the side of a square as large, but no nearer than this, metres.
+/// Places on an area: this many along the side of a square of the same size, but no closer together than this, metres.
 const ACROSS: f64 = 8.0;
 const LEAST_M: f64 = 0.25;
 
-/// From place to place along lines around a plot, metres.
+/// The distance between places along the lines around a plot, metres.
 const SPACING_M: f64 = 2.0;
 
-/// Nobody looks for shadow farther out than this, metres, nor that of a lower sun, degrees.
+/// Shadow is not sought farther out than this, metres, nor for a lower sun than this, degrees.
 const FARTHEST_M: f64 = 2000.0;
 const LOWEST_DEG: f64 = 0.5;
 
-/// So many places are searched between two looks at the listener.
+/// The number of places that are searched between two calls of the listener.
 const TOGETHER: usize = 64;
 
-/// What a rule protects on a site. Around the plot itself that is as far as something `highest_m` high throws its shadow.
+/// Finds what a rule protects on a site. The lines around the plot reach as far as the shadow of something `highest_m`
+/// high.
 ///
 /// # Errors
-/// [`StudyError`]; [`StudyError::NoEnvelope`] for rules that do not say how much sun must stay.
+/// [`StudyError`]; [`StudyError::NoEnvelope`] if the rule does not say how much sun must stay.
 pub fn kept_by(
     site: &JudgedSite,
     rule: &ResolvedRule,
@@ -69,7 +70,7 @@ pub fn kept_by(
     Ok(KeptByRule { things, needed, days: calendar })
 }
 
-/// A place, by its light.
+/// A place, from its light.
 fn place(
     judging: &Judging<'_>,
     demand: &RuleDemand,
@@ -83,7 +84,7 @@ fn place(
     Ok(KeptPlace { weight, points, days })
 }
 
-/// A thing of which all places must keep their sun.
+/// A thing whose places must all keep their sun.
 fn whole(name: String, places: Vec<KeptPlace>) -> KeptThing {
     let needed = places.iter().map(|place| place.weight).sum();
     KeptThing { name, places, needed }
@@ -155,7 +156,7 @@ fn of_area(
     in_steps(&spots, steps, of)
 }
 
-/// The middles of triangles whose sides are no longer than that, with their square metres.
+/// The centres of triangles whose sides are at most this long, each with the triangle's area in square metres.
 fn spots(parts: &[PartTriangle], longest_m: f64) -> Vec<(AreaSpot, f64)> {
     let mut spots = Vec::new();
     for part in parts {
@@ -219,7 +220,7 @@ fn named(number: usize, band: Band) -> String {
     format!("band {}, from {}{end}", number + 1, band.from_m)
 }
 
-/// Asks of many, and lets the listener end the work.
+/// Searches many places, and gives the listener chances to stop the work.
 fn in_steps<T: Sync>(
     all: &[T],
     steps: &mut Steps<'_, '_>,

@@ -1,4 +1,4 @@
-//! How much sun a rule says must stay, of those rules that say it as time.
+//! How much sun must stay by a rule, for the rules that say it as a time.
 
 use super::super::StudyError;
 use super::super::envelope::{DaysNeeded, KeptPlace, SunNeeded};
@@ -16,7 +16,7 @@ fn refused(rule: &ResolvedRule, why: &str) -> StudyError {
     StudyError::NoEnvelope { rule: rule.id.clone(), why: why.to_owned() }
 }
 
-/// On which days the sun must stay.
+/// Whether the sun must stay on all days or on one of them.
 pub(super) fn days_needed(rule: &ResolvedRule) -> Result<DaysNeeded, StudyError> {
     let is = |judge: DayJudge| rule.days.iter().filter(|set| set.judge == judge).count();
     match (is(DayJudge::Sum), is(DayJudge::Best)) {
@@ -28,8 +28,8 @@ pub(super) fn days_needed(rule: &ResolvedRule) -> Result<DaysNeeded, StudyError>
 }
 
 impl RuleDemand {
-    /// Of a strip around a plot, or of other receivers. Of grades the lowest counts, and of limits of which one is enough the
-    /// first.
+    /// The demands for a band around a plot, or for other receivers. Of several grades the lowest is taken, and of
+    /// several limits of which one is enough the first.
     pub(super) fn of(rule: &ResolvedRule, band: Option<usize>) -> Result<RuleDemand, StudyError> {
         let is_time = |criterion: &Criterion| {
             matches!(criterion.demand, Demand::AtLeast { .. } | Demand::AtMost(_))
@@ -54,7 +54,7 @@ impl RuleDemand {
         self.criteria.first().map(|number| &rule.criteria[*number])
     }
 
-    /// What must stay on a day, of the sun that there would be and that there is.
+    /// What must stay on a day, given the sun with nothing in its way and the sun that there is.
     pub(super) fn on(
         &self,
         rule: &ResolvedRule,
@@ -86,7 +86,7 @@ impl RuleDemand {
             (Demand::AtLeast { .. }, CountedTime::Sun) => {
                 Err(refused(rule, "it asks for a total and for one long spell"))
             }
-            // a short shadow that does not count is more than must be
+            // shadow that is too short to count could be allowed in addition, but is not
             (Demand::AtMost(secs), CountedTime::Shadow) if criterion.how == CountHow::Total => {
                 let all = total_secs(&common(open, windows));
                 Ok(SunNeeded { lit, secs: (all - secs).max(0), at_once: false })
@@ -96,7 +96,7 @@ impl RuleDemand {
     }
 }
 
-/// How much of an area must keep its sun, square metres.
+/// The part of an area that must keep its sun, square metres.
 pub(super) fn needed_weight(rule: &ResolvedRule, demand: &RuleDemand, places: &[KeptPlace], days: DaysNeeded) -> f64 {
     let all: f64 = places.iter().map(|place| place.weight).sum();
     let Some(criterion) = demand.first(rule) else { return all };

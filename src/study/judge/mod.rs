@@ -1,7 +1,7 @@
 //! A site judged by a rule: what the rule needs, the light of each receiver to the second, and its verdicts.
 //!
-//! Points are searched exactly, as probes are, in the state that is judged and in the one before. Of areas as many points are
-//! searched as their parts need to be known.
+//! Points are searched exactly, as probes are, in the state that is judged and in the one before. On an area, points
+//! are added until the parts that the rule asks for are known precisely enough.
 
 mod area_light;
 mod areas;

@@ -1,4 +1,4 @@
-//! What a rule needs and a site does not say: one error that lists all of it.
+//! What a rule needs and a site does not have: one error that lists all of it.
 
 use crate::judgement::{narrow_place, needed_of_window};
 use crate::message::few;
@@ -8,7 +8,7 @@ use crate::rules::{
 use crate::site::{AreaSurface, JudgedSite};
 use std::collections::BTreeMap;
 
-/// So many names are listed.
+/// The most names that are listed.
 const MOST_NAMES: usize = 30;
 
 /// Refuses a site that lacks what a rule needs.
@@ -98,7 +98,7 @@ fn of_windows(rule: &ResolvedRule, site: &JudgedSite, needs: &mut Vec<String>) {
     of_uses(all_of, site, needs);
 }
 
-/// A dwelling without one of the uses is an error and no pass.
+/// A dwelling that lacks one of the uses is an error; it does not pass.
 fn of_uses(all_of: &[String], site: &JudgedSite, needs: &mut Vec<String>) {
     let mut dwellings: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for window in &site.windows {

@@ -1,20 +1,20 @@
-//! The light of a receiver on all days, as rules count it.
+//! The light of a receiver on all days, in the form that rules count.
 
 use crate::judgement::{DayCount, LitSpell, ReceiverSpells, spells_of};
 use crate::rules::{CountedTime, DayLight, ResolvedRule, RuleDay, RuleError, Ruling, Spell, Verdict, merged, without};
 
-/// Of one receiver, each day by itself.
+/// The light of one receiver, a list for each day.
 #[derive(Clone, Debug)]
 pub(super) struct PointLight {
-    /// When a sun that counts would shine if nothing stood there.
+    /// When a sun that counts would shine with nothing in its way.
     pub(super) open: Vec<Vec<Spell>>,
-    /// In the sun, as it is.
+    /// The spells in the sun, in the state that is judged.
     pub(super) now: Vec<Vec<LitSpell>>,
-    /// In the sun, as it was.
+    /// The spells in the sun, in the state before.
     pub(super) before: Option<Vec<Vec<LitSpell>>>,
 }
 
-/// The same without what bounds the spells, as what is judged needs it.
+/// The same without the spells' bounds, as rules need it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct CountedLight {
     open: Vec<Vec<Spell>>,
@@ -48,7 +48,7 @@ impl PointLight {
 }
 
 impl CountedLight {
-    /// Of several receivers of which one is enough, or of an area of which any part is.
+    /// The light of several receivers together, lit while any of them is; or of an area, lit while any part of it is.
     pub(super) fn any(lights: &[&CountedLight], days: usize) -> CountedLight {
         let together = |of: &dyn Fn(&CountedLight) -> Option<&Vec<Vec<Spell>>>, day: usize| {
             merged(lights.iter().filter_map(|light| of(light)).flat_map(|spells| spells[day].iter().copied()))
@@ -65,7 +65,7 @@ impl CountedLight {
         }
     }
 
-    /// Of an area: where any of its points lies in shadow that was lit before is newly shaded.
+    /// New shadow on an area: while any of its points is in shadow that was lit before.
     pub(super) fn any_with_new_shadow(lights: &[&CountedLight], days: usize) -> CountedLight {
         let any = CountedLight::any(lights, days);
         let new = |day: usize| merged(lights.iter().flat_map(|light| light.new_shadow(day)));
@@ -73,12 +73,12 @@ impl CountedLight {
         CountedLight { newly_shaded, ..any }
     }
 
-    /// Shadow that was sun, on a day.
+    /// The spells of a day in shadow that were in the sun before.
     pub(super) fn new_shadow(&self, day: usize) -> Vec<Spell> {
         self.before.as_ref().map_or_else(Vec::new, |before| without(&before[day], &self.now[day]))
     }
 
-    /// As a rule is given it, on each day.
+    /// The light of each day, in the form that rules take.
     pub(super) fn days<'b>(&'b self, days: &'b [RuleDay]) -> Vec<DayLight<'b>> {
         let of = |(at, day): (usize, &'b RuleDay)| DayLight {
             day,
@@ -90,12 +90,12 @@ impl CountedLight {
         days.iter().enumerate().map(of).collect()
     }
 
-    /// The spells of some days, without what bounds them.
+    /// The spells of some days, without their bounds.
     pub(super) fn newly_shaded_on(&self, day: usize) -> Option<Vec<Spell>> {
         self.newly_shaded.as_ref().map(|new| new[day].clone())
     }
 
-    /// What the rule's own way of counting comes to on each day.
+    /// The number that the rule counts on each day.
     pub(super) fn counts(&self, rule: &ResolvedRule, days: &[RuleDay]) -> Vec<DayCount> {
         let tally = |spells: &[Spell], day: &RuleDay| rule.counting.tally(rule.counting.how, spells, &day.windows).secs;
         let of = |light: DayLight<'_>| {
@@ -119,7 +119,7 @@ impl CountedLight {
         self.days(days).into_iter().map(of).collect()
     }
 
-    /// The ruling of a receiver that is lit or not as one.
+    /// The ruling of a receiver that is lit or in shadow as a whole.
     pub(super) fn ruling(
         &self,
         rule: &ResolvedRule,
@@ -130,7 +130,7 @@ impl CountedLight {
     }
 }
 
-/// How good a ruling is: the greater the better. Seconds to its limit, and whether it is kept before all.
+/// How good a ruling is, greater being better: first whether it is kept, then the seconds to its limit.
 pub(super) fn merit(ruling: &Ruling) -> (u8, f64) {
     let rank = match ruling.verdict {
         Verdict::Fail => 0,

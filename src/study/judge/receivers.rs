@@ -1,4 +1,4 @@
-//! All receivers of a rule, each with its ruling.
+//! Judges all receivers of a rule.
 
 use super::super::StudyError;
 use super::area_light::reach_of;
@@ -15,31 +15,31 @@ use crate::shadow::JUDGED_ABOVE_M;
 use crate::sunlight::JudgedPoint;
 use glam::DVec3;
 
-/// Where a receiver is shaded: points each by itself, or all of them together.
+/// The points at which a receiver's takers are sought: each by itself, or all together.
 pub(super) struct ShadedReceiver {
-    /// Of each of these the mean is told.
+    /// Each by itself; the mean over them is reported.
     pub(super) parts: Vec<ShadedSpells>,
     pub(super) wall: Option<WallPlane>,
 }
 
-/// Points of a receiver that is lit where all of them are.
+/// Points of a receiver that is lit while all of them are.
 pub(super) struct ShadedSpells {
     pub(super) points: Vec<JudgedPoint>,
-    /// On each day, when a sun that counts would shine.
+    /// For each day, when a sun that counts would shine with nothing in its way.
     pub(super) open: Vec<Vec<Spell>>,
-    /// And when it does.
+    /// For each day, when it does shine.
     pub(super) lit: Vec<Vec<Spell>>,
 }
 
 /// All receivers, judged.
 pub(super) struct JudgedReceivers {
     pub(super) receivers: Vec<(ReceiverRuling, ShadedReceiver)>,
-    /// Of a rule of windows, in the site's order.
+    /// For a rule of windows, the light of each, in the site's order.
     pub(super) windows: Vec<WindowLight>,
 }
 
 impl Judging<'_> {
-    /// How many receivers there are.
+    /// The number of receivers.
     pub(super) fn count(&self) -> usize {
         match &self.rule.receiver {
             RuleReceiver::Area { .. } => self.site.areas.len(),
@@ -124,7 +124,7 @@ fn of_windows(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<Judged
     Ok(JudgedReceivers { receivers, windows: lights })
 }
 
-/// A receiver of points, with the spells of the days that are told.
+/// A receiver that consists of points, with the spells of the days that are reported.
 fn told(judging: &Judging<'_>, mut receiver: ReceiverRuling, light: &PointLight) -> (ReceiverRuling, ShadedReceiver) {
     tell(judging, &mut receiver, light);
     let normal = receiver.normal;
@@ -143,11 +143,11 @@ fn shaded_part(points: Vec<JudgedPoint>, light: &PointLight) -> ShadedSpells {
     ShadedSpells { points, open: light.open.clone(), lit: counted }
 }
 
-/// Of more days than this the deciding one alone is told in spells.
+/// The most days for which all spells are reported; if there are more, only those of the deciding day are.
 const MOST_TOLD: usize = 8;
 
-/// Which of the rule's days decides for a receiver: that of its deciding finding, or else the one that counts least, or for
-/// shadow most.
+/// Which of the rule's days decides for a receiver: that of its deciding finding; if there is none, the day with the
+/// least sun, or with the most shadow if that is counted.
 pub(super) fn deciding_day(judging: &Judging<'_>, receiver: &ReceiverRuling) -> usize {
     let days = judging.days.days;
     let date = receiver.ruling.deciding.and_then(|at| receiver.ruling.findings[at].date);

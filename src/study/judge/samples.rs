@@ -13,37 +13,37 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::collections::HashMap;
 
-/// Points are put so far within an area's border, metres: what stands at the border does not hold them.
+/// The distance of points from the area's border, metres, so that what stands at the border does not enclose them.
 const INSIDE_M: f64 = 0.001;
 
 /// A point of an area.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AreaSpot {
-    /// On the area; of one on the ground on the plan.
+    /// The point on the area; on the plan if the area lies on the ground.
     pub(super) at: DVec3,
-    /// Upward from a sloped face.
+    /// The upward normal of a sloped face.
     pub(super) normal: Option<DVec3>,
 }
 
 /// What is summed over an area.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum SumKind {
-    /// The part of it where the number is not below 0.
+    /// The area where the number is not below 0.
     Part,
-    /// The number itself.
+    /// The number itself, times the area.
     Number,
 }
 
-/// A triangle that is not split.
+/// A triangle that is not split further.
 #[derive(Clone, Debug)]
 struct Leaf {
     corners: [u32; 3],
     m2: f64,
-    /// For each number that is asked, how much the last split changed, this leaf's part of it.
+    /// For each number, how much the last split changed, as this triangle's share of it.
     changed: Vec<f64>,
 }
 
-/// Sums over an area, for each number that is asked, and to how much each is known.
+/// The sum over an area of each number, with its error.
 #[derive(Clone, Debug, Default)]
 pub(super) struct AreaSums {
     pub(super) sums: Vec<f64>,
@@ -53,7 +53,7 @@ pub(super) struct AreaSums {
 /// An area's points and triangles.
 pub(super) struct Samples {
     pub(super) spots: Vec<AreaSpot>,
-    /// What each point has of what is asked.
+    /// The numbers at each point.
     pub(super) values: Vec<Vec<f64>>,
     leaves: Vec<Leaf>,
     middles: HashMap<(u32, u32), u32>,
@@ -63,7 +63,7 @@ pub(super) struct Samples {
 pub(super) type SpotFunction<'a> = &'a (dyn Fn(&AreaSpot) -> Result<Vec<f64>, SunError> + Sync);
 
 impl Samples {
-    /// With triangles whose sides are no longer than `longest_m`.
+    /// Cuts an area into triangles whose sides are at most `longest_m` long.
     pub(super) fn new(triangles: &[PartTriangle], longest_m: f64) -> Samples {
         let mut samples =
             Samples { spots: Vec::new(), values: Vec::new(), leaves: Vec::new(), middles: HashMap::new() };
@@ -87,7 +87,7 @@ impl Samples {
         samples
     }
 
-    /// The halves of a triangle whose longest side is too long.
+    /// Halves a triangle as long as its longest side is too long.
     fn halved(&mut self, corners: [u32; 3], longest_m: f64) -> Option<[[u32; 3]; 2]> {
         let at = |corner: u32| self.spots[corner as usize].at;
         let length = |first: usize| at(corners[first]).distance(at(corners[(first + 1) % 3]));
@@ -110,7 +110,7 @@ impl Samples {
         })
     }
 
-    /// Asks the points that are new.
+    /// Computes the numbers at the points that are new.
     pub(super) fn ask(&mut self, value: SpotFunction<'_>, steps: &mut Steps<'_, '_>) -> Result<(), StudyError> {
         const TOGETHER: usize = 512;
         while self.values.len() < self.spots.len() {
@@ -127,7 +127,7 @@ impl Samples {
         corners.map(|corner| self.values[corner as usize][number])
     }
 
-    /// The sums as they are known now.
+    /// The sums over the present triangles.
     pub(super) fn sums(&self, kinds: &[SumKind]) -> AreaSums {
         let of = |number: usize| -> (f64, f64) {
             let kind = kinds[number];
@@ -155,7 +155,7 @@ impl Samples {
         (allowed, most): (&dyn Fn(&AreaSums, usize) -> f64, usize),
         steps: &mut Steps<'_, '_>,
     ) -> Result<AreaSums, StudyError> {
-        /// As often at least all triangles are split in which it changes or may.
+        /// The number of rounds in which those triangles are split, too, in which a number may pass 0.
         const AT_LEAST: usize = 2;
         const AT_MOST: usize = 12;
         self.ask(value, steps)?;
@@ -195,7 +195,7 @@ impl Samples {
         self.leaves.iter().filter(is_open).count().max(1) as f64
     }
 
-    /// Splits leaves into four each, and notes by how much that changes them.
+    /// Splits leaves into four each, and records how much that changes them.
     fn split(
         &mut self,
         leaves: Vec<Leaf>,
@@ -225,8 +225,8 @@ impl Samples {
         [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
     }
 
-    /// Splits the triangles around the lowest of a single number, again and again, and returns the point that has it and by
-    /// how much the last splits lowered it.
+    /// Repeatedly splits the triangles around the lowest value of a single number. Returns the point that has it, and
+    /// by how much the last splits lowered it.
     pub(super) fn lowest(
         &mut self,
         value: SpotFunction<'_>,
@@ -258,7 +258,8 @@ impl Samples {
     }
 }
 
-/// Whether a triangle may be otherwise within than at its corners.
+/// Whether splitting a triangle can change its part of the sum: its corners do not all have the same side of 0, or the
+/// same number.
 fn is_open(kind: SumKind, three: [f64; 3]) -> bool {
     match kind {
         SumKind::Part => three.iter().any(|value| *value >= 0.0) && three.iter().any(|value| *value < 0.0),
@@ -266,13 +267,13 @@ fn is_open(kind: SumKind, three: [f64; 3]) -> bool {
     }
 }
 
-/// Whether the number would pass 0 if it changed once more as much as it does in the triangle.
+/// Whether the number would pass 0 if it changed again by as much as it does in the triangle.
 fn is_near(kind: SumKind, three: [f64; 3]) -> bool {
     let nearest = three.iter().map(|value| value.abs()).fold(f64::INFINITY, f64::min);
     kind == SumKind::Part && nearest <= spread(three)
 }
 
-/// From the lowest to the highest of three.
+/// The difference between the highest and the lowest of three.
 fn spread(three: [f64; 3]) -> f64 {
     let [a, b, c] = three;
     a.max(b).max(c) - a.min(b).min(c)
@@ -284,7 +285,7 @@ fn part(kind: SumKind, three: [f64; 3]) -> f64 {
         SumKind::Number => three.iter().sum::<f64>() / 3.0,
         SumKind::Part => {
             let [low, middle, high] = sorted(three);
-            // the line cuts off the corner that is alone on its side
+            // the line cuts off the corner that is alone on its side of it
             let corner = |alone: f64, others: [f64; 2]| alone * alone / ((alone - others[0]) * (alone - others[1]));
             match [low, middle, high].iter().filter(|value| **value >= 0.0).count() {
                 0 => 0.0,

@@ -1,4 +1,4 @@
-//! One state of a site, ready for points to be searched.
+//! One state of a site, prepared for the search of points.
 
 use super::super::ground_heights::GroundHeights;
 use super::days::JudgedDays;
@@ -11,28 +11,29 @@ use crate::sun::SunError;
 use crate::sunlight::{Interval, IntervalBound, JudgedPoint, ProbeSearch};
 use glam::DVec3;
 
-/// What lies no farther before a plane than this belongs to the wall in it, metres.
+/// A face that is no farther in front of a plane than this belongs to the wall in the plane, metres.
 const IN_PLANE_M: f64 = 0.005;
 
 /// The casters of a state, and its ground.
 pub(super) struct StateSearch {
     search: ProbeSearch,
-    /// The mesh's index of each of the casters' components.
+    /// For each component of the casters, its index in the state's mesh.
     components: Vec<u32>,
     ground: GroundHeights,
 }
 
-/// A level or sloped plane, by its normal and how far it lies along that.
+/// A plane of any slope: its normal, and its distance from the origin along the normal.
 pub(super) type WallPlane = (DVec3, f64);
 
 impl StateSearch {
-    /// For points that lie no farther out than these.
+    /// A search for points within the bounds of these.
     pub(super) fn of(state: &JudgedState, points: &[DVec3]) -> StateSearch {
         let components = (0..).zip(&state.casts).filter(|(_, casts)| **casts).map(|(at, _)| at).collect();
         StateSearch::with(state, state.mesh.of_components(&state.casts), components, points)
     }
 
-    /// With what lies before a plane alone: a wall, and what stands behind its outer side, is left out.
+    /// A search with only what lies in front of a plane: a wall in it, and what stands behind the wall's outer side,
+    /// are left out.
     pub(super) fn before_plane(state: &JudgedState, wall: WallPlane, points: &[DVec3]) -> StateSearch {
         let mesh = &*state.mesh;
         let is_before = is_before(mesh, wall);
@@ -44,7 +45,8 @@ impl StateSearch {
         StateSearch::with(state, mesh.of_faces(keep), components, points)
     }
 
-    /// With one component alone, before a wall, where there is one. It knows no terrain: its points are judged already.
+    /// A search with a single component, only in front of a wall if one is given. It has no terrain, as its points have
+    /// been placed already.
     pub(super) fn of_component(
         state: &JudgedState,
         component: u32,
@@ -65,12 +67,12 @@ impl StateSearch {
         StateSearch { search: ProbeSearch::new(casters, &reach(points)), components, ground }
     }
 
-    /// A point on a plane, judged a millimetre before it.
+    /// A point on a plane, judged a millimetre in front of it.
     pub(super) fn in_plane(&self, point: DVec3, normal: DVec3) -> JudgedPoint {
         self.ground.judge(point + normal * JUDGED_ABOVE_M, Some(normal))
     }
 
-    /// A point in the air, or inside an opening, that sees what is before it.
+    /// A point in the air or inside an opening, judged where it is.
     pub(super) fn free(&self, point: DVec3, normal: Option<DVec3>) -> JudgedPoint {
         self.ground.judge(point, normal)
     }
@@ -80,12 +82,12 @@ impl StateSearch {
         self.free(point + DVec3::Z * JUDGED_ABOVE_M, None)
     }
 
-    /// A point so far above the ground, a millimetre more.
+    /// A point at this height above the ground, judged a millimetre higher.
     pub(super) fn above_ground(&self, point: DVec3, above_m: f64) -> JudgedPoint {
         self.free(point.with_z(self.ground.height(point) + above_m + JUDGED_ABOVE_M), None)
     }
 
-    /// When a point is in the sun within spells of each day, with what bounds that.
+    /// When a point is in the sun within the spells of each day, with what bounds each stretch.
     pub(super) fn lit(
         &self,
         at: &JudgedPoint,
@@ -116,12 +118,12 @@ impl StateSearch {
     }
 }
 
-/// Points as a search needs them to know how far out they lie.
+/// Points in the form from which a search takes their bounds.
 fn reach(points: &[DVec3]) -> Vec<JudgedPoint> {
     points.iter().map(|point| JudgedPoint { point: *point, normal: None, below_ground_m: None }).collect()
 }
 
-/// Which faces reach before a plane.
+/// Whether each face reaches in front of a plane.
 fn is_before(mesh: &Mesh, (normal, along): WallPlane) -> impl Fn(u32) -> bool {
     let limit = along + IN_PLANE_M - normal.dot(mesh.origin);
     move |face| mesh.corners(face as usize).iter().any(|corner| normal.dot(corner.as_dvec3()) > limit)

@@ -1,4 +1,4 @@
-//! Who takes the sun: each component's own shade on a day, and what of it no other one shades, too.
+//! Who takes the sun: the shade of each component on a day, and the part of it that no other component shades.
 
 use super::super::StudyError;
 use super::days::{JudgedDays, time};
@@ -12,18 +12,18 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::collections::HashMap;
 
-/// From sun to sun along which components are sought, seconds.
+/// The time between the suns towards which components are sought, seconds.
 const STEP_SECS: usize = 60;
 
-/// More than the sun moves in half of that, radians; boxes are widened by it.
+/// More than the sun moves in half of that time, radians; boxes are widened by it.
 const HALF_STEP_RAD: f64 = 0.0025;
 
-/// A receiver on a day: lit where all of its points are.
+/// A receiver on a day, lit while all of its points are.
 pub(super) struct ShadedPoints {
     pub(super) points: Vec<JudgedPoint>,
-    /// When a sun that counts would shine on each of them.
+    /// For each point, when a sun that counts would shine with nothing in its way.
     pub(super) open: Vec<Vec<Spell>>,
-    /// Before which wall alone components stand in the way.
+    /// The wall in front of which components can take the sun, if there is one.
     pub(super) wall: Option<WallPlane>,
 }
 
@@ -35,7 +35,7 @@ pub(super) struct TakerSearch<'a> {
     /// The casting components, each with its box.
     boxes: Vec<(u32, [DVec3; 2])>,
     reach: Vec<DVec3>,
-    /// Those that were asked, with the wall before which they were.
+    /// The searches made so far, by component and wall.
     searches: HashMap<(u32, Option<[u64; 4]>), StateSearch>,
 }
 
@@ -44,7 +44,7 @@ fn key(wall: Option<WallPlane>) -> Option<[u64; 4]> {
 }
 
 impl<'a> TakerSearch<'a> {
-    /// Of one day, for points no farther out than these.
+    /// Prepares the search of one day, for points within the bounds of these.
     pub(super) fn new(
         judging: &'a Judging<'a>,
         day: JudgedDays<'a>,
@@ -73,7 +73,7 @@ impl<'a> TakerSearch<'a> {
         Ok(TakerSearch { judging, day, suns, boxes, reach, searches: HashMap::new() })
     }
 
-    /// Who takes the sun of a receiver, the greatest taker first.
+    /// Finds who takes the sun of a receiver, the greatest taker first.
     pub(super) fn takers(&mut self, of: &ShadedPoints, shaded: &[Spell]) -> Result<Vec<Taker>, StudyError> {
         let candidates = self.candidates(of, shaded);
         let missing: Vec<u32> =
@@ -84,7 +84,7 @@ impl<'a> TakerSearch<'a> {
             .map(|at| ((*at, key(of.wall)), StateSearch::of_component(state, *at, of.wall, &self.reach)))
             .collect();
         self.searches.extend(built);
-        // for each point each candidate's own shade
+        // for each point, the shade of each candidate by itself
         let shades: Vec<Vec<Vec<Spell>>> = of
             .points
             .iter()
@@ -100,7 +100,7 @@ impl<'a> TakerSearch<'a> {
             if taken.is_empty() {
                 continue;
             }
-            // dark still where others shade any of the points
+            // still dark where other components shade any of the points
             let others = |point: &Vec<Vec<Spell>>| -> Vec<Spell> {
                 let others = point.iter().enumerate().filter(|(at, _)| *at != number);
                 others.flat_map(|(_, spells)| spells.iter().copied()).collect()
@@ -114,7 +114,7 @@ impl<'a> TakerSearch<'a> {
         Ok(takers)
     }
 
-    /// When a component alone shades a point.
+    /// The spells in which a point would be in a component's shade if nothing else stood.
     fn shade(
         &self,
         component: u32,
@@ -127,7 +127,7 @@ impl<'a> TakerSearch<'a> {
         Ok(without(open, &spells_of(&lit[0])))
     }
 
-    /// The components whose boxes stand before the sun in these spells.
+    /// The components whose boxes stand in front of the sun in these spells.
     fn candidates(&self, of: &ShadedPoints, shaded: &[Spell]) -> Vec<u32> {
         let step = STEP_SECS as i64;
         let is_shaded = |secs: i64| shaded.iter().any(|spell| spell.start - step <= secs && secs < spell.end + step);
@@ -143,7 +143,7 @@ impl<'a> TakerSearch<'a> {
     }
 }
 
-/// The greatest taker first: who takes most alone, then who takes most.
+/// Sorts takers, the greatest first: by what each takes alone, then by what it takes in all.
 pub(super) fn sort(takers: &mut [Taker]) {
     let all = |taker: &Taker| taker.alone_secs + taker.with_others_secs;
     takers.sort_by(|one, other| {
@@ -164,7 +164,7 @@ fn widened([low, high]: &[DVec3; 2], point: DVec3) -> [DVec3; 2] {
 /// Whether a ray meets a box.
 fn meets([low, high]: &[DVec3; 2], from: DVec3, along: DVec3) -> bool {
     let (one, other) = ((low - from) / along, (high - from) / along);
-    // where the ray runs within a side's plane the quotient is none, and that side cuts nothing
+    // if the ray runs within a side's plane, the quotient is not a number, and that side cuts nothing off
     let near = one.min(other).to_array().into_iter().filter(|at| !at.is_nan()).fold(0.0, f64::max);
     let far = one.max(other).to_array().into_iter().filter(|at| !at.is_nan()).fold(f64::INFINITY, f64::min);
     near <= far

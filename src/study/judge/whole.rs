@@ -1,4 +1,4 @@
-//! What all receivers come to together, and what is told with it.
+//! The verdict over all receivers, and what is reported with it.
 
 use super::super::StudyError;
 use super::days::JudgedDays;
@@ -13,14 +13,14 @@ use crate::sun::DayWindow;
 use glam::DVec3;
 use std::collections::{BTreeMap, HashMap};
 
-/// For each day the verdict of all that is judged on it.
+/// For each day, the verdict over everything that is judged on it.
 pub(super) fn day_verdicts(
     rule: &ResolvedRule,
     days: &[RuleDay],
     receivers: &[ReceiverRuling],
     groups: &[GroupRuling],
 ) -> Vec<Verdict> {
-    // rooms stand for their windows where these are added up
+    // where windows are added up, their rooms are judged in their place
     let of_rooms: Vec<&Ruling> =
         groups.iter().filter(|group| group.kind == GroupKind::Room).filter_map(|group| group.ruling.as_ref()).collect();
     let rulings: Vec<&Ruling> =
@@ -38,7 +38,7 @@ pub(super) fn day_verdicts(
     days.iter().map(|day| Verdict::all(rulings.iter().map(|ruling| of_ruling(ruling, day)))).collect()
 }
 
-/// The lowest grade of all: of dwellings that of their best room.
+/// The lowest grade of all; a dwelling has the grade of its best room.
 pub(super) fn grade(
     rule: &ResolvedRule,
     verdict: Verdict,
@@ -67,7 +67,7 @@ pub(super) fn grade(
     rule.criteria[lowest].grade.clone()
 }
 
-/// Finds who takes the sun of all that do not pass, on the day that decides.
+/// Finds who takes the sun of the receivers that do not pass, on the deciding day.
 pub(super) fn with_takers(
     judging: &Judging<'_>,
     hulls: &[DayWindow],
@@ -95,7 +95,7 @@ pub(super) fn with_takers(
     Ok(())
 }
 
-/// The takers of a receiver, by the mean over its parts.
+/// The takers of a receiver, with the mean over its parts.
 fn takers(search: &mut TakerSearch<'_>, shaded: &ShadedReceiver, day: usize) -> Result<Vec<Taker>, StudyError> {
     let mut sums: HashMap<u32, [f64; 2]> = HashMap::new();
     for part in &shaded.parts {
@@ -120,7 +120,7 @@ fn takers(search: &mut TakerSearch<'_>, shaded: &ShadedReceiver, day: usize) -> 
     Ok(takers)
 }
 
-/// What the user should know of how it was judged.
+/// Notes on how the site was judged.
 pub(super) fn notes(judging: &Judging<'_>, receivers: &[ReceiverRuling]) -> Vec<Message> {
     let mut notes: Vec<String> = Vec::new();
     let site = judging.site;
@@ -129,8 +129,8 @@ pub(super) fn notes(judging: &Judging<'_>, receivers: &[ReceiverRuling]) -> Vec<
             let is_of_faces = |surface: &AreaSurface| matches!(surface, AreaSurface::Faces(_));
             if *least_width_m > 0.0 && site.areas.iter().any(|area| is_of_faces(&area.surface)) {
                 notes.push(format!(
-                    "parts narrower than {least_width_m} m do not count, and of areas that are a component's faces the width \
-                     is not tested"
+                    "parts narrower than {least_width_m} m do not count, but the width of areas that are a component's faces is \
+                     not tested"
                 ));
             }
         }
@@ -146,18 +146,18 @@ pub(super) fn notes(judging: &Judging<'_>, receivers: &[ReceiverRuling]) -> Vec<
             }
         }
         RuleReceiver::Lines { .. } => notes.push(
-            "shadow of all components that cast is counted; where the rule is of the building alone, leave others out of \
-             those that cast"
+            "the shadow of all components that cast is counted; if the rule is about the building alone, leave the others \
+             out of those that cast"
                 .to_owned(),
         ),
         RuleReceiver::Facade => {}
     }
     if judging.rule.compare == Some(CompareWith::Reference) {
-        notes.push("no body that the law allows is compared, so nothing is excused by one".to_owned());
+        notes.push("no lawful body is compared, so no number is excused because of one".to_owned());
     }
     if receivers.iter().any(|receiver| receiver.ruling.verdict == Verdict::Close) {
         notes.push(
-            "where a number is closer to its limit than it is known, the verdict is close: neither kept nor missed"
+            "where a number differs from its limit by less than its error, the verdict is close: neither kept nor missed"
                 .to_owned(),
         );
     }

@@ -1,4 +1,4 @@
-//! The light of windows.
+//! When windows are lit.
 
 use super::super::StudyError;
 use super::judging::{BothStates, Judging, Steps};
@@ -12,19 +12,19 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, HashMap};
 
-/// So many windows are searched between two looks at the listener.
+/// The number of windows that are searched between two calls of the listener.
 const TOGETHER: usize = 64;
 
-/// A window, and when it is lit.
+/// When a window is lit.
 pub(super) struct WindowLight {
     pub(super) spot: WindowSpot,
     pub(super) light: PointLight,
 }
 
-/// When a sun that counts would shine on windows that look one way, on each day.
+/// When a sun that counts would shine, with nothing in its way, on windows that face one direction, on each day.
 type OpenByNormal = HashMap<[u64; 3], Vec<Vec<Spell>>>;
 
-/// Of the wall before a point inside; what lies in it and behind it does not hold the sun.
+/// The wall in front of a point inside; what lies in the wall and behind it does not take the sun.
 pub(super) fn wall_plane(spot: &WindowSpot) -> Option<WallPlane> {
     spot.through.as_ref().map(|opening| (opening.outward, opening.plane_m()))
 }
@@ -34,7 +34,7 @@ pub(super) fn windows(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Resul
     let windows = &judging.site.windows;
     let spots: Vec<WindowSpot> = windows
         .iter()
-        // what is not said is asked for before
+        // missing values were reported earlier
         .map(|window| {
             window_spot(&judging.rule.receiver, window).unwrap_or(WindowSpot { points: Vec::new(), through: None })
         })
@@ -72,7 +72,7 @@ fn bits(normal: DVec3) -> [u64; 3] {
     normal.to_array().map(f64::to_bits)
 }
 
-/// Walls in one plane have one search: to a millimetre.
+/// The key of a wall's search: walls in the same plane, to a millimetre, share one.
 fn rounded((normal, along): WallPlane) -> [i64; 4] {
     let normal = (normal * 1e6).round();
     [normal.x as i64, normal.y as i64, normal.z as i64, (along * 1e3).round() as i64]
@@ -85,7 +85,7 @@ fn open_by_normal(judging: &Judging<'_>, windows: &[JudgedWindow]) -> OpenByNorm
     normals.into_par_iter().map(|normal| (bits(normal), judging.days.open(Some(normal)))).collect()
 }
 
-/// A window is lit where all of its points are.
+/// The light of a window, which is lit while all of its points are.
 fn light(
     judging: &Judging<'_>,
     searches: &BothStates,

@@ -8,15 +8,15 @@ use crate::site::{AreaSurface, JudgedArea, JudgedSite};
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 
-/// Points along each side of an area's rectangle at which is looked.
+/// The number of tested points along each side of an area's rectangle.
 const POINTS: usize = 16;
-/// What hangs higher above an area than this it does not lie under, metres.
+/// An area does not lie under what is higher above it than this, metres.
 const LOW_M: f64 = 3.0;
-/// An area of which more lies under something gets a note.
+/// An area gets a note if a greater share of it than this lies under something.
 const COVERED: f64 = 0.5;
 
-/// What should be known of areas that lie under something in the state before, or the only one: what is built over later is
-/// what is judged.
+/// Notes on areas that lie under something in the state before, or in the only state. What is built over an area later
+/// is what is judged.
 pub(super) fn notes(site: &JudgedSite) -> Vec<Message> {
     let state = site.before.as_ref().unwrap_or(&site.now);
     let bounded: Vec<&JudgedArea> = site.areas.iter().filter(|area| !area.rings.is_empty()).collect();
@@ -40,7 +40,7 @@ fn of_area(area: &JudgedArea, heights: &GroundHeights, casters: &Obstacles, kept
             AreaSurface::Ground(above) => heights.height(at.extend(0.0)) + above,
             AreaSurface::Faces(_) => return None,
         };
-        // a millimetre above itself, as all that is judged
+        // a millimetre above itself, as everything that is judged
         let met = casters.first_face(at.extend(height + 0.001), DVec3::Z);
         if let Some((face, _)) = met.filter(|(_, away)| *away <= LOW_M) {
             let component = kept.components.partition_point(|component| component.faces.end <= face);
@@ -53,12 +53,12 @@ fn of_area(area: &JudgedArea, heights: &GroundHeights, casters: &Obstacles, kept
     (share > COVERED).then(|| {
         let name = kept.components.get(*most).map_or("", |component| &component.name);
         let what =
-            format!("{:.0} % of the area \"{}\" lie less than {LOW_M} m under \"{name}\"", share * 100.0, area.name);
+            format!("{:.0} % of the area \"{}\" lies less than {LOW_M} m under \"{name}\"", share * 100.0, area.name);
         message![what; "write its `height` or `level`, or `component`, if it lies on top of that"]
     })
 }
 
-/// Points of a grid that lie within borders.
+/// The points of a grid that lie within an area's borders.
 fn points(rings: &[Vec<DVec2>]) -> Vec<DVec2> {
     let corners = || rings.iter().flatten().copied();
     let low = corners().fold(DVec2::INFINITY, DVec2::min);

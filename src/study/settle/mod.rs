@@ -1,5 +1,5 @@
-//! What of a judged site only rays can tell: which side of a pane or wall is outside, how deep a window lies in its wall,
-//! and whether an area lies under something.
+//! What only rays can tell of a judged site: which side of a pane or wall is outside, how deep a window lies in its
+//! wall, and whether an area lies under something.
 
 mod areas;
 mod obstacles;
@@ -10,7 +10,7 @@ use crate::site::{JudgedSite, SiteError};
 use obstacles::Obstacles;
 use rayon::prelude::*;
 
-/// Settles what the site's file leaves open, and says in notes how.
+/// Settles what the site file leaves open, and adds notes that say how.
 ///
 /// # Errors
 /// Windows that look into their own wall.
@@ -33,7 +33,7 @@ pub fn settle(mut site: JudgedSite) -> Result<JudgedSite, SiteError> {
     Ok(site)
 }
 
-/// Turns the points of façades whose wall is more open behind.
+/// Turns the points of façades where the wall is more open behind.
 fn facades(site: &mut JudgedSite, obstacles: &Obstacles) -> Vec<Message> {
     let mut notes = Vec::new();
     for facade in &mut site.facades {
@@ -47,7 +47,7 @@ fn facades(site: &mut JudgedSite, obstacles: &Obstacles) -> Vec<Message> {
         for at in turned {
             facade.points[at][1] = -facade.points[at][1];
         }
-        let what = format!("\"{}\" has {count} points on walls of which nothing shows the outer side", facade.name);
+        let what = format!("\"{}\" has {count} points on walls whose outer side is not known", facade.name);
         notes.extend((count > 0).then(|| message![what; "each is judged on the side that is more open"]));
     }
     notes

@@ -1,14 +1,14 @@
-//! What stands before a point, but for glass whose windows are judged.
+//! What stands in front of a point, except the glass of judged windows.
 
 use crate::mesh::Mesh;
 use crate::shadow::ray_cast::RayCaster;
 use crate::study::openness::{looks, openness};
 use glam::{DVec3, DVec4};
 
-/// A ray begins so far before what it looks from, metres.
+/// The distance of a ray's start from the surface that it leaves, metres.
 const BEFORE_M: f64 = 0.002;
 
-/// Some components, to be asked by rays.
+/// Some components, ready to be met by rays.
 pub(super) struct Obstacles {
     origin: DVec3,
     rays: RayCaster,
@@ -16,9 +16,9 @@ pub(super) struct Obstacles {
 }
 
 impl Obstacles {
-    /// Those components that are kept, asked from near these points of the world frame.
+    /// The components that are kept, for rays that start near these points of the world frame.
     pub(super) fn new(mesh: &Mesh, keep: &[bool], points: impl Iterator<Item = DVec3>) -> Obstacles {
-        /// Rays begin no farther from the points.
+        /// The greatest distance of a ray's start from the points, metres.
         const NEAR_M: f64 = 10.0;
         let kept = mesh.of_components(keep);
         let reach = points.map(|point| (point - kept.origin).abs().max_element()).fold(0.0, f64::max) + NEAR_M;
@@ -30,7 +30,8 @@ impl Obstacles {
         openness(&self.rays, point + normal * BEFORE_M - self.origin, Some(normal))
     }
 
-    /// Whether nothing but the insides of walls is seen from a side: whatever lies ahead, and most of it from behind.
+    /// Whether only the insides of walls are seen from a side: something lies in every direction, and most of it shows
+    /// its back.
     pub(super) fn is_walled_in(&self, point: DVec3, normal: DVec3) -> bool {
         let from = point + normal * BEFORE_M - self.origin;
         let hits = looks(normal).map(|look| Some((look, self.rays.first_hit(from, look)?.0)));
@@ -39,12 +40,12 @@ impl Obstacles {
         hits.iter().all(Option::is_some) && 2 * backs.count() > hits.len()
     }
 
-    /// How far away the first face lies along a ray, metres.
+    /// The distance to the first face along a ray, metres.
     pub(super) fn first(&self, from: DVec3, direction: DVec3) -> Option<f64> {
         self.rays.first_hit(from - self.origin, direction).map(|(_, away)| away)
     }
 
-    /// Which face lies first along a ray, and how far away, metres.
+    /// The first face along a ray, and its distance, metres.
     pub(super) fn first_face(&self, from: DVec3, direction: DVec3) -> Option<(u32, f64)> {
         self.rays.first_hit(from - self.origin, direction)
     }

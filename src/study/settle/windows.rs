@@ -1,4 +1,4 @@
-//! Windows: their outer side, and how deep they lie in their wall.
+//! Windows: which side is outside, and how deep they lie in their wall.
 
 use super::obstacles::Obstacles;
 use crate::message::{Message, few, message, setting};
@@ -6,31 +6,31 @@ use crate::site::{FieldLocation, JudgedSite, JudgedWindow, SiteError};
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// The other side of a window is more open than the one that is written only by more than this.
+/// The other side of a window counts as more open only if its openness is greater by more than this.
 const CLEARLY: f64 = 1.5;
-/// From so far before the glass a reveal is measured, metres; no reveal is deeper.
+/// The distance in front of the glass from which a reveal is measured, metres; no reveal is deeper.
 const DEEPEST_M: f64 = 1.0;
-/// Beside the glass, metres: beyond the frame.
+/// The distance beside the glass at which the wall is sought, metres: beyond the frame.
 const BESIDE_M: [f64; 3] = [0.2, 0.35, 0.5];
-/// What lies so much behind the glass still bounds it, metres.
+/// A face that lies up to this far behind the glass still bounds it, metres.
 const BEHIND_M: f64 = 0.05;
 
-/// What was found of a window.
+/// What was found about a window.
 #[derive(Clone, Copy, Default)]
 struct SettledWindow {
     /// Nothing shows which side is outside.
     is_doubtful: bool,
-    /// As its corners are written it looks at what is less open by far.
+    /// The side given by the order of its corners is far less open than the other.
     seems_turned: bool,
     looks_into_wall: bool,
-    /// The reveal, where it was measured.
+    /// The reveal, if it was measured.
     reveal_m: Option<f64>,
 }
 
 /// Settles all windows.
 ///
 /// # Errors
-/// Those that look into their own wall, all in one.
+/// One error that lists all windows that look into their own wall.
 pub(super) fn settle(site: &mut JudgedSite, obstacles: &Obstacles) -> Result<(), SiteError> {
     let found: Vec<SettledWindow> = site.windows.par_iter_mut().map(|window| of_window(window, obstacles)).collect();
     let named = |which: fn(&SettledWindow) -> bool| {
@@ -51,7 +51,7 @@ pub(super) fn settle(site: &mut JudgedSite, obstacles: &Obstacles) -> Result<(),
     let (turned, names_of_turned) = named(|found| found.seems_turned);
     let mut notes = Vec::new();
     if doubtful > 0 {
-        let what = format!("both sides of {} are as open: {names_of_doubtful}", windows(doubtful));
+        let what = format!("both sides of {} are equally open: {names_of_doubtful}", windows(doubtful));
         notes.push(message![what; "write `corners` as they are seen from outside where the wrong side is judged"]);
     }
     if turned > 0 {
@@ -63,7 +63,7 @@ pub(super) fn settle(site: &mut JudgedSite, obstacles: &Obstacles) -> Result<(),
     Ok(())
 }
 
-/// That reveals were measured, and from where to where they reach.
+/// A note that reveals were measured, with their range.
 fn note_reveals(found: &[SettledWindow]) -> Option<Message> {
     let measured: Vec<f64> = found.iter().filter_map(|found| found.reveal_m).collect();
     let least = measured.iter().copied().fold(f64::INFINITY, f64::min);
@@ -83,7 +83,7 @@ fn of_window(window: &mut JudgedWindow, obstacles: &Obstacles) -> SettledWindow 
     let middle = |corners: &[DVec3; 4]| corners.iter().sum::<DVec3>() / 4.0;
     let mut found = SettledWindow::default();
     let (front, ahead) = (middle(&window.corners), window.outward);
-    // of a pane the two faces, of corners the same plane from behind
+    // a pane has two faces; of written corners, the back of the same plane
     let back = window.other_side.as_ref().map_or(front, middle);
     let mut open = [obstacles.openness(front, ahead), obstacles.openness(back, -ahead)];
     let mut sides = [(front, ahead), (back, -ahead)];
@@ -107,8 +107,8 @@ fn of_window(window: &mut JudgedWindow, obstacles: &Obstacles) -> SettledWindow 
     found
 }
 
-/// How far the wall beside a window lies before its glass: the middle one of what rays from outside meet to its left, its
-/// right and above it; 0 where they meet nothing.
+/// The distance of the wall beside a window in front of its glass: the middle one of those at which rays from outside
+/// meet it to the left, to the right and above; 0 if they meet nothing.
 fn reveal(window: &JudgedWindow, obstacles: &Obstacles) -> f64 {
     let [low_left, low_right, high_right, high_left] = window.corners;
     let right = (low_right - low_left).normalize_or_zero();

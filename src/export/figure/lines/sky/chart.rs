@@ -1,4 +1,4 @@
-//! One chart: where it lies on the sheet, and where directions lie in it.
+//! One chart: its position on the sheet, and the positions of directions in it.
 
 use crate::export::figure::lines::{SvgNumber, line};
 use crate::export::figure::scale::Rgb;
@@ -7,24 +7,24 @@ use crate::sunlight::SkyRaster;
 use crate::view::SkyProjection;
 use glam::DVec3;
 
-/// A raster of the sky on the sheet.
+/// A chart, which is a raster of the sky on the sheet.
 pub(super) struct SkyChart<'a> {
-    /// Its north-west corner on the field, pixels.
+    /// Its top left corner on the field, pixels.
     pub(super) corner: [f64; 2],
     pub(super) raster: &'a SkyRaster,
-    /// Pixels a cell.
+    /// The side of a cell, pixels.
     cell: f64,
-    /// How thick lines are, and how far labels stand from them: 1 on a sheet.
+    /// The scale of lines and of the labels' distances from them: 1 on a sheet.
     pub(super) pen: f64,
 }
 
 impl<'a> SkyChart<'a> {
-    /// On a sheet.
+    /// A chart on a sheet.
     pub(super) fn at(corner: [f64; 2], raster: &'a SkyRaster, cell: f64) -> SkyChart<'a> {
         SkyChart { corner, raster, cell, pen: 1.0 }
     }
 
-    /// On a card, a pixel a cell: with thin lines, and without what would be too small to be read.
+    /// A chart on a card, one pixel per cell: with thin lines, and without what would be too small to read.
     pub(super) fn small(corner: [f64; 2], raster: &'a SkyRaster) -> SkyChart<'a> {
         SkyChart { corner, raster, cell: 1.0, pen: 0.55 }
     }
@@ -45,17 +45,17 @@ impl<'a> SkyChart<'a> {
         [self.raster.picture.width, self.raster.picture.height].map(|cells| f64::from(cells) * self.cell)
     }
 
-    /// Where a place of the raster lies on the field.
+    /// The position of a point of the raster on the field.
     pub(super) fn on_field(&self, [column, row]: [f64; 2]) -> [f64; 2] {
         [self.corner[0] + column * self.cell, self.corner[1] + row * self.cell]
     }
 
-    /// Where a direction lies on the field.
+    /// The position of a direction on the field.
     pub(super) fn place(&self, to: DVec3) -> [f64; 2] {
         self.on_field(self.raster.picture.place(to).to_array())
     }
 
-    /// A line on the field, in parts where it leaves the strip on one side and comes in on the other.
+    /// A line on the field, in several parts if it leaves the strip on one side and comes in on the other.
     pub(super) fn parts(&self, run: &[DVec3]) -> Vec<Vec<[f64; 2]>> {
         let half = self.size()[0] / 2.0;
         let mut parts: Vec<Vec<[f64; 2]>> = vec![Vec::new()];
@@ -87,7 +87,7 @@ impl<'a> SkyChart<'a> {
         }
     }
 
-    /// Lines of one kind, with dashes where they have any.
+    /// Lines of one kind, dashed if the kind is.
     pub(super) fn stroke(
         &self,
         block: &mut Block,

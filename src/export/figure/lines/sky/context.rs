@@ -1,4 +1,4 @@
-//! What a sheet of a point's sky is made of.
+//! The data from which a sheet of a point's sky is drawn.
 
 use crate::export::figure::component_colours;
 use crate::export::figure::scale::Rgb;
@@ -9,31 +9,31 @@ use crate::sunlight::{ProbeWay, SkyLines, Sunlight};
 use crate::view::SkyPicture;
 use std::f64::consts::PI;
 
-/// What a sheet shows of one point.
+/// The data of one point's sheet.
 pub struct SkyContext<'a> {
     /// The place.
     pub place: &'a Place,
     /// The ground.
     pub ground: &'a Ground,
-    /// What was found of all points.
+    /// The results of all points.
     pub sunlight: &'a Sunlight,
-    /// Which of them it is.
+    /// The index of the point.
     pub probe: usize,
     /// The lines of the year.
     pub lines: &'a SkyLines,
-    /// The ways of the requested days.
+    /// The sun's ways on the requested days.
     pub ways: &'a [ProbeWay],
     /// The colour of each of [`Sunlight::components`].
     pub colours: &'a [Rgb],
 }
 
-/// The diameter of the disc and the width of the strip, and the side of a cell of what stands before the point: pixels of
-/// the page.
+/// The diameter of the disc and the width of the strip, and the side of a cell of what stands in front of the point:
+/// pixels of the page.
 pub(super) const DISC: u32 = 1400;
 pub(super) const STRIP: u32 = 2240;
 pub(super) const CELL: f64 = 2.0;
 
-/// The pictures of which a sheet needs rasters: the stereographic one, then the cylindrical one, which has the sun's noon
+/// The pictures for which a sheet needs rasters: the stereographic one, then the cylindrical one, with the sun's noon
 /// in its middle.
 pub fn sky_pictures(place: &Place) -> [SkyPicture; 2] {
     let middle_rad = if place.latitude_deg < 0.0 { 0.0 } else { PI };
@@ -41,7 +41,7 @@ pub fn sky_pictures(place: &Place) -> [SkyPicture; 2] {
     [SkyPicture::stereographic(cells(DISC)), SkyPicture::cylindrical(cells(STRIP), middle_rad)]
 }
 
-/// The components' colours, of those alone that cast: as [`Sunlight::components`] has them.
+/// The colours of the components that cast, in the order of [`Sunlight::components`].
 pub fn sky_colours(mesh: &Mesh, casts: &[bool]) -> Vec<Rgb> {
     let all = component_colours(mesh, casts).into_iter().zip(casts);
     all.filter(|(_, casts)| **casts).map(|(colour, _)| colour).collect()

@@ -1,4 +1,5 @@
-//! What lies around and below the lines: the sky with what stands before it, the grid, and the rim with its letters.
+//! What lies around and below the lines: the sky with what stands in front of it, the grid, and the rim with its
+//! letters.
 
 use super::chart::{SkyChart, direction};
 use super::regions::regions;
@@ -9,7 +10,7 @@ use crate::view::SkyProjection;
 use glam::DVec3;
 
 impl SkyChart<'_> {
-    /// What lies below the lines: the sky, what stands before it, and the grid.
+    /// What lies below the lines: the sky, what stands in front of it, and the grid.
     pub(super) fn ground(&self, block: &mut Block, colours: &[Rgb]) {
         let name = self.name();
         let shape = self.shape();
@@ -23,13 +24,13 @@ impl SkyChart<'_> {
         self.grid(block);
     }
 
-    /// Circles of altitude each 10°, and lines of azimuth each 30°.
+    /// Circles of altitude every 10°, and lines of azimuth every 30°.
     fn grid(&self, block: &mut Block) {
         const HEAVY: f64 = 0.5;
         const LIGHT: f64 = 0.26;
         let is_disc = self.raster.picture.projection == SkyProjection::Stereographic;
         for altitude_deg in (10..90).step_by(10) {
-            // a disc's circles close
+            // the circles of a disc are closed
             let around = (0..=360).step_by(2).map(|azimuth| direction(f64::from(azimuth), f64::from(altitude_deg)));
             let around: Vec<DVec3> = around.collect();
             let strength = if altitude_deg % 30 == 0 { HEAVY } else { LIGHT };
@@ -51,7 +52,7 @@ impl SkyChart<'_> {
         }
     }
 
-    /// The horizon, with the azimuths around it; at the strip's sides the altitudes.
+    /// The horizon, with the azimuths around it, and the altitudes at the sides of the strip.
     pub(super) fn rim(&self, block: &mut Block) {
         block.push(format_args!(
             "{} fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"/>",
@@ -102,7 +103,7 @@ impl SkyChart<'_> {
         }
     }
 
-    /// What stands at each altitude in degrees, for labels on the disc: along the side that the sun never crosses.
+    /// The labels of altitudes on the disc, with their positions: along the side that the sun never crosses.
     pub(super) fn altitudes(&self, is_southern: bool) -> Vec<(String, [f64; 2])> {
         if self.raster.picture.projection != SkyProjection::Stereographic {
             return Vec::new();

@@ -1,4 +1,4 @@
-//! What is written in a chart: months, hours of the clock and of the sundial, and the times at which the point's sun comes
+//! The labels of a chart: months, hours of the clock and of the sundial, and the times at which the point's sun comes
 //! and goes.
 
 use super::chart::SkyChart;
@@ -11,17 +11,18 @@ use crate::sunlight::{HourLine, ProbeWay};
 use chrono::{Datelike, NaiveDate};
 use glam::DVec3;
 
-/// The most times that are written: of more the panel's table has what fits, and the command's answer all.
+/// The most times that are written in a chart; if there are more, the panel's table has those that fit, and the
+/// command's answer has all.
 const MOST_TIMES: usize = 12;
 
 impl SkyChart<'_> {
-    /// Lines that nothing should be written on.
+    /// Lines that labels should not cover.
     pub(super) fn avoid(&self, labels: &mut Labels, shown: &SkyContext) {
         for run in shown.lines.months.iter().flat_map(|month| &month.runs) {
             self.parts(run).iter().for_each(|part| labels.avoid(part));
         }
         for run in shown.ways.iter().flat_map(|way| &way.way.runs) {
-            // thick ones, which hide more
+            // thick lines, which hide more
             self.parts(run).iter().for_each(|part| (0..4).for_each(|_| labels.avoid(part)));
         }
         let hours = shown.lines.clock_hours.iter().chain(&shown.lines.solar_hours);
@@ -31,7 +32,7 @@ impl SkyChart<'_> {
         }
     }
 
-    /// Writes everything, what matters most first: of what finds no room the later is left out.
+    /// Writes all labels, the most important first; a label that finds no room is left out.
     pub(super) fn mark(&self, labels: &mut Labels, shown: &SkyContext) {
         if !self.is_small() {
             if let [way] = shown.ways {
@@ -55,7 +56,7 @@ impl SkyChart<'_> {
         }
     }
 
-    /// When the sun comes and goes.
+    /// The times at which the sun comes and goes.
     fn times(&self, labels: &mut Labels, way: &ProbeWay) {
         let ends = way.intervals.iter().zip(&way.lit).filter_map(|(interval, lit)| {
             let [first, last] = [lit.first()?, lit.last()?];
@@ -68,12 +69,12 @@ impl SkyChart<'_> {
         }
     }
 
-    /// The hour of the clock at the ends of its line: in June and in December, by the clock of those days.
+    /// The hour of the clock, at both ends of its line: in June and in December, by the clock of those days.
     fn clock_hour(&self, labels: &mut Labels, hour: &HourLine, pole: DVec3) {
         for (month, sign) in [(6, 1.0), (12, -1.0)] {
             let is_there = |(date, _): &&(NaiveDate, DVec3)| date.month() == month && date.day() == 21;
             let Some((_, to)) = hour.runs.iter().flatten().find(is_there) else { continue };
-            // away from the ways of the other days: towards the celestial pole, or from it
+            // away from the ways of the other days: towards the celestial pole, or away from it
             let (at, beyond) = (self.place(*to), self.place((*to + pole * 0.02 * sign).normalize_or(*to)));
             let out = [beyond[0] - at[0], beyond[1] - at[1]];
             let length = out[0].hypot(out[1]);
@@ -92,7 +93,8 @@ impl SkyChart<'_> {
         }
     }
 
-    /// The days of the ways, on them: those of the first half of the year in the afternoon, the others in the morning.
+    /// The dates of the ways, written on them: in the afternoon for the first half of the year, in the morning for the
+    /// second.
     fn months(&self, labels: &mut Labels, shown: &SkyContext) {
         for (index, month) in shown.lines.months.iter().enumerate() {
             let said = month.date.format("%-d %b").to_string();
@@ -123,7 +125,7 @@ impl SkyChart<'_> {
     }
 }
 
-/// Places around a point, so far away.
+/// Positions around a point, at a distance.
 fn around([x, y]: [f64; 2], away: &[f64]) -> Vec<Spot> {
     let directions =
         [[0.0, -1.0], [0.0, 1.0], [1.25, 0.0], [-1.25, 0.0], [0.9, -0.8], [-0.9, -0.8], [0.9, 0.8], [-0.9, 0.8]];

@@ -1,5 +1,5 @@
-//! The sky of a point: two sun-path charts on a sheet, a stereographic one and a cylindrical one below it, with what
-//! stands before the sun's ways.
+//! The sky of a point: two sun-path charts on a sheet, a stereographic one and below it a cylindrical one, with what
+//! stands in front of the sun's ways.
 
 mod chart;
 mod context;

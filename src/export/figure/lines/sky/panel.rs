@@ -54,7 +54,7 @@ pub(super) fn panel(shown: &SkyContext, strip: &SkyRaster) -> Panel {
     }
 }
 
-/// Where the sun stands when it comes and goes, on a single day.
+/// The sun's positions when it comes and goes, if there is a single day.
 fn sun_rows(shown: &SkyContext) -> Vec<[String; 4]> {
     let [way] = shown.ways else { return Vec::new() };
     let row = |what: &str, time: String, to: Option<&DVec3>| {
@@ -77,7 +77,7 @@ fn sun_rows(shown: &SkyContext) -> Vec<[String; 4]> {
     rows
 }
 
-/// What is seen, the largest part of the sky first.
+/// What is seen from the point, the largest part of the sky first.
 fn legend(shown: &SkyContext, strip: &SkyRaster) -> Vec<(Rgb, String)> {
     let (width, height) = (strip.picture.width as usize, f64::from(strip.picture.height.max(1)));
     let mut parts: BTreeMap<SkyCell, f64> = BTreeMap::new();

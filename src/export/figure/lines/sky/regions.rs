@@ -1,4 +1,5 @@
-//! What stands before a point, as areas of the chart: each component in its colour, and what the point's plane hides.
+//! What stands in front of a point, as areas of the chart: each component in its colour, and what the point's plane
+//! hides.
 
 use super::chart::SkyChart;
 use super::tones::tone;
@@ -12,17 +13,17 @@ use std::collections::BTreeMap;
 
 /// The area of one component.
 pub(super) struct SkyRegion {
-    /// As the data of a path on the field.
+    /// The area as the data of a path on the field.
     data: String,
     colour: Rgb,
 }
 
 impl SkyRegion {
     pub(super) fn draw(&self, block: &mut Block) {
-        /// How much of the line's colour an outline has.
+        /// The share of the line's colour in an outline.
         const OUTLINE: f64 = 0.4;
         let outline = mix(self.colour, LOOK.line, OUTLINE);
-        // the fill's own colour would leave a seam between neighbours
+        // an outline in the fill's own colour would leave a seam between neighbours
         block.push(format_args!(
             "<path d=\"{}\" fill=\"{}\" fill-rule=\"evenodd\" stroke=\"{}\" stroke-width=\"1.2\" stroke-linejoin=\"round\"/>",
             self.data,
@@ -32,7 +33,7 @@ impl SkyRegion {
     }
 }
 
-/// West, north, east and south of the cells of one kind, the last ones exclusive.
+/// The west, north, east and south bounds of the cells of one kind; the last two are exclusive.
 type CellBox = [usize; 4];
 
 /// The areas of a chart, what is behind the point's plane first.
@@ -45,7 +46,7 @@ pub(super) fn regions(chart: &SkyChart, colours: &[Rgb]) -> Vec<SkyRegion> {
         *around = [around[0].min(column), around[1].min(row), around[2].max(column), around[3].max(row)];
     }
     let of_cell = |(cell, [west, north, east, south]): (&SkyCell, &CellBox)| {
-        // a cell more on each side, so that a border of the box is none of the chart
+        // one cell more on each side, so that the border of the box is not drawn as a border in the chart
         let [west, north] = [west.saturating_sub(1), north.saturating_sub(1)];
         let (columns, rows) = ((east + 2).min(width) - west, (south + 2).min(height) - north);
         let value = |at: usize| {

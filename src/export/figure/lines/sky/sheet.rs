@@ -23,9 +23,9 @@ pub fn sky_sheet(shown: &SkyContext, rasters: &[SkyRaster; 2]) -> LineDrawing {
     LineDrawing(page::whole_chart(&panel, |field| sheet(shown, rasters, field)))
 }
 
-/// Both charts in a field of that many pixels.
+/// Both charts in a field of this many pixels.
 fn sheet(shown: &SkyContext, [disc, strip]: &[SkyRaster; 2], field: (u32, u32)) -> Block {
-    /// The room around a chart for what is written at its rim.
+    /// The room around a chart for the labels at its rim.
     const RIM: f64 = 96.0;
     let (width, height) = (f64::from(field.0), f64::from(field.1));
     let charts = [
@@ -48,7 +48,7 @@ fn sheet(shown: &SkyContext, [disc, strip]: &[SkyRaster; 2], field: (u32, u32)) 
     block
 }
 
-/// What a chart is called, above it.
+/// The title above a chart.
 fn head(block: &mut Block, chart: &SkyChart) {
     let (name, what) = match chart.raster.picture.projection {
         SkyProjection::Stereographic => ("Stereographic", "zenith in the middle, north up, as in a plan"),
@@ -66,7 +66,7 @@ fn head(block: &mut Block, chart: &SkyChart) {
 const CARD: u32 = 580;
 const CARD_MARGIN: u32 = 50;
 
-/// The picture of which a card needs a raster.
+/// The picture for which a card needs a raster.
 pub fn card_picture() -> SkyPicture {
     SkyPicture::stereographic(CARD - 2 * CARD_MARGIN)
 }
@@ -74,7 +74,7 @@ pub fn card_picture() -> SkyPicture {
 /// The stereographic chart alone, for a card on a screen: without months, sundial and times.
 ///
 /// # Errors
-/// [`ExportError::Encode`] where it cannot be drawn.
+/// [`ExportError::Encode`] if it cannot be drawn.
 pub fn sky_card(shown: &SkyContext, raster: &SkyRaster) -> Result<Screen, ExportError> {
     const SMALL: LetterStyle = LetterStyle { size: 21.0, ..LABEL };
     let chart = SkyChart::small([f64::from(CARD_MARGIN); 2], raster);
