@@ -145,9 +145,24 @@ fn withheld_points_are_left_out() {
     }
 }
 
+#[test]
+fn noise_and_points_that_are_nowhere_are_counted() {
+    let noise = [7, 7, 18].map(|class| point([25.0, 25.0, -40.0], class));
+    let bytes = file_of(6, Vec::new(), flat(2).chain(noise));
+    let model = read("noise.las", &bytes, &ReadOptions::default()).unwrap();
+    assert_eq!(count(&model, "points of noise"), Some(3), "{:?}", model.left_out);
+    // with a step of 1e308, whole numbers above 1 have no finite height
+    let mut beyond = bytes;
+    beyond[Z_STEP..Z_STEP + 8].copy_from_slice(&1e308_f64.to_le_bytes());
+    let told = read("beyond.las", &beyond, &ReadOptions::default()).expect_err("nothing is left");
+    assert!(told.contains("without finite coordinates"), "{told}");
+}
+
 /// The numbers of a header by which a decoder takes memory.
 const POINTS_AT: usize = 96;
 const RECORD_LENGTH: usize = 105;
+/// The length of a step of z.
+const Z_STEP: usize = 147;
 const EXTENDED_AT: usize = 235;
 const POINTS: usize = 247;
 

@@ -153,7 +153,11 @@ impl ClassedPoints {
                 let point = DVec3::new(x, y, z * unit_m);
                 if is_withheld {
                     left_out.add("points", "marked as withheld, which means deleted");
-                } else if point.is_finite() && !NOISE.contains(&class) {
+                } else if NOISE.contains(&class) {
+                    left_out.add("points of noise", "classified as errors of the measurement");
+                } else if !point.is_finite() {
+                    left_out.add("points", "their coordinates are not finite numbers");
+                } else {
                     by_class.entry(class).or_default().push(point);
                 }
             }
@@ -179,7 +183,7 @@ impl ClassedPoints {
         let all: Vec<DVec3> = self.by_class.values().flatten().copied().collect();
         if all.is_empty() {
             return Err(message![
-                "has no points except noise and deleted ones"; "export it with the points of the ground, of class 2"
+                "has no points except noise, deleted ones and those without finite coordinates"; "export it with the points of the ground, of class 2"
             ]
             .into());
         }
