@@ -158,6 +158,16 @@ fn noise_and_points_that_are_nowhere_are_counted() {
     assert!(told.contains("without finite coordinates"), "{told}");
 }
 
+/// The ground of an unclassified file is made of all its points, so that none is left out.
+#[test]
+fn points_that_become_ground_are_not_left_out() {
+    for class in [1, 5, 6] {
+        let model = read("points.las", file_of(6, Vec::new(), flat(class)), &ReadOptions::default()).unwrap();
+        assert!(notes(&model).contains("no points classified as ground"), "{}", notes(&model));
+        assert!(model.left_out.is_empty(), "{:?}", model.left_out);
+    }
+}
+
 /// The numbers of a header by which a decoder takes memory.
 const POINTS_AT: usize = 96;
 const RECORD_LENGTH: usize = 105;

@@ -96,6 +96,10 @@ fn model(path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
             continue;
         }
         if !is_asked {
+            // without classified ground, these points are what the ground is made of
+            if !is_classified {
+                continue;
+            }
             let why = format!("`classes = [\"{class}\"]` under [[model]] in a site file lets this class stand there");
             left_out.push(LeftOut { what: format!("points of class {class}"), count: of_class.len() as u64, why });
             continue;
@@ -112,7 +116,7 @@ fn model(path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
         sheets.push((format!("{name}/{class}"), positions, triangles, PartKind::Building));
     }
     let other = points.others();
-    if other > 0 {
+    if is_classified && other > 0 {
         let why = "neither ground nor of a class that can be asked".to_owned();
         left_out.push(LeftOut { what: "points of other classes".into(), count: other, why });
     }
