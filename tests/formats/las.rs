@@ -80,10 +80,10 @@ fn cut_points_are_refused() {
     assert!(told.contains("cut off") || told.contains("cannot be read"), "{told}");
 }
 
-/// A point of a class, with its format's usual rest.
+/// A point of a class.
 fn point([x, y, z]: [f64; 3], class: u8) -> las::Point {
     let classification = las::point::Classification::new(class).unwrap();
-    las::Point { x, y, z, classification, gps_time: Some(0.0), ..las::Point::default() }
+    las::Point { x, y, z, classification, ..las::Point::default() }
 }
 
 /// A file of points, in one of the formats of the standard.
@@ -96,16 +96,13 @@ fn file_of(format: u8, records: Vec<las::Vlr>, points: impl IntoIterator<Item = 
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("points.las");
     let mut writer = las::Writer::from_path(&path, header.into_header().unwrap()).unwrap();
-    for mut point in points {
-        point.gps_time = point.gps_time.filter(|_| header_has_time(format));
-        writer.write_point(point).unwrap();
+    let las::point::Format { has_gps_time, has_color, .. } = las::point::Format::new(format).unwrap();
+    for point in points {
+        let (gps_time, color) = (has_gps_time.then_some(0.0), has_color.then(las::Color::default));
+        writer.write_point(las::Point { gps_time, color, ..point }).unwrap();
     }
     writer.close().unwrap();
     std::fs::read(path).unwrap()
-}
-
-fn header_has_time(format: u8) -> bool {
-    las::point::Format::new(format).unwrap().has_gps_time
 }
 
 /// 50 × 50 m of flat ground at 10 m, of a class.
@@ -132,9 +129,50 @@ fn what_stands_beyond_the_ground_is_left_out() {
     assert_eq!((model.parts.len(), count(&model, "points of class building")), (1, Some(50)));
 }
 
+/// Points that a program marked as deleted are no ground, in both ways to mark them.
+#[test]
+fn withheld_points_are_left_out() {
+    for format in [0, 1, 3, 6, 7] {
+        // every other one, 20 m above the ground
+        let deleted = (0..2500).step_by(2).map(|at| {
+            let at = point([f64::from(at % 50), f64::from(at / 50), 30.0], 2);
+            las::Point { is_withheld: true, ..at }
+        });
+        let model = read("points.las", file_of(format, Vec::new(), flat(2).chain(deleted)), &ReadOptions::default());
+        let model = model.unwrap();
+        assert_eq!(count(&model, "points"), Some(1250), "format {format}: {:?}", model.left_out);
+        assert!(model.parts[0].positions.iter().all(|at| (at.z - 10.0).abs() < 0.1), "format {format}");
+    }
+}
+
+#[test]
+fn noise_and_points_that_are_nowhere_are_counted() {
+    let noise = [7, 7, 18].map(|class| point([25.0, 25.0, -40.0], class));
+    let bytes = file_of(6, Vec::new(), flat(2).chain(noise));
+    let model = read("noise.las", &bytes, &ReadOptions::default()).unwrap();
+    assert_eq!(count(&model, "points of noise"), Some(3), "{:?}", model.left_out);
+    // with a step of 1e308, whole numbers above 1 have no finite height
+    let mut beyond = bytes;
+    beyond[Z_STEP..Z_STEP + 8].copy_from_slice(&1e308_f64.to_le_bytes());
+    let told = read("beyond.las", &beyond, &ReadOptions::default()).expect_err("nothing is left");
+    assert!(told.contains("without finite coordinates"), "{told}");
+}
+
+/// The ground of an unclassified file is made of all its points, so that none is left out.
+#[test]
+fn points_that_become_ground_are_not_left_out() {
+    for class in [1, 5, 6] {
+        let model = read("points.las", file_of(6, Vec::new(), flat(class)), &ReadOptions::default()).unwrap();
+        assert!(notes(&model).contains("no points classified as ground"), "{}", notes(&model));
+        assert!(model.left_out.is_empty(), "{:?}", model.left_out);
+    }
+}
+
 /// The numbers of a header by which a decoder takes memory.
 const POINTS_AT: usize = 96;
 const RECORD_LENGTH: usize = 105;
+/// The length of a step of z.
+const Z_STEP: usize = 147;
 const EXTENDED_AT: usize = 235;
 const POINTS: usize = 247;
 

@@ -5,6 +5,7 @@ use super::las_sizes::{self, unusable};
 use super::map::TerrainMap;
 use super::point_cells::{CellBlocks, PointCells};
 use super::{NamedSheet, of_metres, thin};
+use crate::formats::left_out::LeftOutTally;
 use crate::formats::source::stem;
 use crate::formats::{Format, LeftOut, Model, ModelFault, PartKind, ReadOptions};
 use crate::message::{Message, message};
@@ -24,6 +25,8 @@ const AT_ONCE: u64 = 1 << 24;
 
 /// The classes of ground, and of its key points (ASPRS LAS 1.4-R15, table 17).
 const GROUND: [u8; 2] = [2, 8];
+/// Where a point's flags are in its record.
+const FLAGS_AT: usize = 15;
 /// The classes of errors, low or high.
 const NOISE: [u8; 2] = [7, 18];
 
@@ -93,6 +96,10 @@ fn model(path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
             continue;
         }
         if !is_asked {
+            // without classified ground, these points are what the ground is made of
+            if !is_classified {
+                continue;
+            }
             let why = format!("`classes = [\"{class}\"]` under [[model]] in a site file lets this class stand there");
             left_out.push(LeftOut { what: format!("points of class {class}"), count: of_class.len() as u64, why });
             continue;
@@ -109,7 +116,7 @@ fn model(path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
         sheets.push((format!("{name}/{class}"), positions, triangles, PartKind::Building));
     }
     let other = points.others();
-    if other > 0 {
+    if is_classified && other > 0 {
         let why = "neither ground nor of a class that can be asked".to_owned();
         left_out.push(LeftOut { what: "points of other classes".into(), count: other, why });
     }
@@ -119,6 +126,7 @@ fn model(path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
         let class = part.name.rsplit('/').next().unwrap_or_default().to_owned();
         part.aliases.extend([class, name.clone()]);
     }
+    left_out.extend(points.left_out.into_left_out());
     model.left_out = left_out;
     Ok(model)
 }
@@ -126,12 +134,14 @@ fn model(path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
 /// Points by class, in the file's coordinates, heights in metres.
 struct ClassedPoints {
     by_class: BTreeMap<u8, Vec<DVec3>>,
+    /// The points that are of no class, whatever they say.
+    left_out: LeftOutTally,
 }
 
 impl ClassedPoints {
     fn read(reader: &mut Reader, unit_m: f64) -> Result<ClassedPoints, ModelFault> {
         let count = reader.header().number_of_points();
-        let mut by_class = BTreeMap::<u8, Vec<DVec3>>::new();
+        let (mut by_class, mut left_out) = (BTreeMap::<u8, Vec<DVec3>>::new(), LeftOutTally::default());
         let mut read = 0;
         // memory is taken as points come
         let at_once = AT_ONCE / u64::from(reader.header().point_format().len()).max(1);
@@ -142,14 +152,21 @@ impl ClassedPoints {
                 return Err(message![what; "copy or export it again"].into());
             }
             read += points.len() as u64;
-            for (((x, y), z), class) in points.x().zip(points.y()).zip(points.z()).zip(points.classification()) {
+            let places = points.x().zip(points.y()).zip(points.z());
+            for ((((x, y), z), class), is_withheld) in places.zip(points.classification()).zip(withheld(&points)) {
                 let point = DVec3::new(x, y, z * unit_m);
-                if point.is_finite() && !NOISE.contains(&class) {
+                if is_withheld {
+                    left_out.add("points", "marked as withheld, which means deleted");
+                } else if NOISE.contains(&class) {
+                    left_out.add("points of noise", "classified as errors of the measurement");
+                } else if !point.is_finite() {
+                    left_out.add("points", "their coordinates are not finite numbers");
+                } else {
                     by_class.entry(class).or_default().push(point);
                 }
             }
         }
-        Ok(ClassedPoints { by_class })
+        Ok(ClassedPoints { by_class, left_out })
     }
 
     fn note(&self) -> Message {
@@ -170,7 +187,7 @@ impl ClassedPoints {
         let all: Vec<DVec3> = self.by_class.values().flatten().copied().collect();
         if all.is_empty() {
             return Err(message![
-                "has no points except noise"; "export it with the points of the ground, of class 2"
+                "has no points except noise, deleted ones and those without finite coordinates"; "export it with the points of the ground, of class 2"
             ]
             .into());
         }
@@ -182,6 +199,14 @@ impl ClassedPoints {
         let is_asked = |class: &u8| GROUND.contains(class) || CLASSES.iter().any(|(_, of)| of.contains(class));
         self.by_class.iter().filter(|(class, _)| !is_asked(class)).map(|(_, points)| points.len() as u64).sum()
     }
+}
+
+/// Whether each of the points is deleted (ASPRS LAS 1.4-R15, tables 8 and 16): the flag stands beside the class up to
+/// format 5, and among more flags from 6 on.
+fn withheld(points: &PointData) -> impl Iterator<Item = bool> {
+    let flag = if points.format().is_extended { 0x04 } else { 0x80 };
+    let records = points.raw_bytes().chunks_exact(points.record_len().max(1));
+    records.map(move |record| record.get(FLAGS_AT).is_some_and(|flags| flags & flag != 0))
 }
 
 /// The map of the points: from WKT if there is any, otherwise from GeoTIFF's keys.
