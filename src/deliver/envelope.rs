@@ -6,7 +6,7 @@ use super::{DeliverError, Sink, WrittenFiles};
 use crate::export::envelope::{self as encode, EnvelopeMap, EnvelopeSolid, EnvelopeTold, KeptReceiver, KeptSpot};
 use crate::export::{figure, raster};
 use crate::message::{Field, Message, message};
-use crate::rules::{Grouping, ResolvedRule, RuleDay, RuleError, RuleReceiver, RuleSource};
+use crate::rules::{Grouping, ResolvedRule, RuleDay, RuleError, RuleNeed, RuleReceiver, RuleSource};
 use crate::site::{GroundKind, JudgedPlot, JudgedSite};
 use crate::study::envelope::{EnvelopeOutcome, KeptThing, envelope as find};
 use crate::study::judge::kept_by;
@@ -110,8 +110,8 @@ pub fn envelope(
 /// The plot and its cells.
 fn plot<'s>(site: &'s JudgedSite, asked: &EnvelopeRequest<'_>) -> Result<(&'s JudgedPlot, Grid), DeliverError> {
     let Some(plot) = &site.plot else {
-        let needs = RuleError::Needs { rule: asked.rule.id.clone(), what: "the plot that is built on".to_owned() };
-        return Err(StudyError::from(needs).into());
+        let needs = vec![RuleNeed::of_key("the plot that is built on", "[plot]", "")];
+        return Err(StudyError::from(RuleError::Needs { rule: asked.rule.id.clone(), needs }).into());
     };
     let Some(grid) = plot_grid(plot, asked.cell_m) else {
         let message = message!["the plot has too many cells of that size"; "take larger ones"];

@@ -52,15 +52,15 @@ impl Opening {
     }
 }
 
-/// What a rule needs of a window and the site does not have, each as a part of a sentence.
-pub fn needed_of_window(receiver: &RuleReceiver, window: &JudgedWindow) -> Vec<&'static str> {
+/// What a rule needs of a window and the site does not have, each as a part of a sentence and its key.
+pub fn needed_of_window(receiver: &RuleReceiver, window: &JudgedWindow) -> Vec<[&'static str; 2]> {
     let RuleReceiver::Window { at, floor_m, .. } = receiver else { return Vec::new() };
     let mut needed = Vec::new();
     if *floor_m > 0.0 && window.floor.is_none() {
-        needed.push("the height of the floor");
+        needed.push(["the height of the floor", "floor"]);
     }
     if *at == WindowPoint::MiddleInside && window.inner_m.is_none() {
-        needed.push("how far the wall's inner plane lies behind the glass");
+        needed.push(["how far the wall's inner plane lies behind the glass", "inner"]);
     }
     needed
 }

@@ -80,11 +80,37 @@ pub enum RuleError {
         what: String,
     },
     /// Information that the rule needs and the site does not have.
-    #[error("rule {rule} needs {what}")]
+    #[error("rule {rule} needs {}", listed(needs))]
     Needs {
         /// The rule.
         rule: String,
-        /// What is missing.
-        what: String,
+        /// What is missing, all of it.
+        needs: Vec<RuleNeed>,
     },
+}
+
+/// Something that a rule needs and a site does not have.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RuleNeed {
+    /// What is missing.
+    pub what: String,
+    /// Where a site file says it, a table with its brackets and a key; an empty key is the table itself. `None` where no
+    /// key would help.
+    pub said_at: Option<[&'static str; 2]>,
+}
+
+impl RuleNeed {
+    /// What a key of a site file says.
+    pub fn of_key(what: impl Into<String>, table: &'static str, key: &'static str) -> RuleNeed {
+        RuleNeed { what: what.into(), said_at: Some([table, key]) }
+    }
+
+    /// What no key of a site file would add.
+    pub fn without_key(what: impl Into<String>) -> RuleNeed {
+        RuleNeed { what: what.into(), said_at: None }
+    }
+}
+
+fn listed(needs: &[RuleNeed]) -> String {
+    needs.iter().map(|need| need.what.as_str()).collect::<Vec<_>>().join("; ")
 }

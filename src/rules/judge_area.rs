@@ -1,7 +1,7 @@
 //! Judges criteria on parts of areas, and shadow as area times time.
 
 use super::criterion::{Criterion, Demand, Extent};
-use super::error::RuleError;
+use super::error::{RuleError, RuleNeed};
 use super::resolved::{ResolvedRule, RuleDay};
 use super::verdict::{DayCase, Finding, Quantity, Ruling, Verdict};
 use super::weigh::{Weight, verdict_of};
@@ -65,7 +65,7 @@ impl ResolvedRule {
         if area_m2.is_finite() && area_m2 > 0.0 {
             return Ok(());
         }
-        Err(RuleError::Needs { rule: self.id.clone(), what: "areas of more than 0 m²".to_owned() })
+        Err(RuleError::Needs { rule: self.id.clone(), needs: vec![RuleNeed::without_key("areas of more than 0 m²")] })
     }
 
     /// `None` if the criterion is not about parts of areas.

@@ -1,7 +1,7 @@
 //! Judges dwellings by their rooms, and buildings by their dwellings.
 
 use super::criterion::{Criterion, Demand, DwellingShare, Extent, SunlessWhen};
-use super::error::RuleError;
+use super::error::{RuleError, RuleNeed};
 use super::receiver::RuleReceiver;
 use super::resolved::ResolvedRule;
 use super::verdict::{DayCase, Finding, Quantity, Ruling, Verdict};
@@ -42,10 +42,13 @@ impl ResolvedRule {
     /// # Errors
     /// [`RuleError::Needs`] for a dwelling without rooms, or if floor areas count and one is missing.
     pub fn judge_dwelling(&self, rooms: &[RoomRuling]) -> Result<Option<DwellingRuling>, RuleError> {
-        let needs = |what: &str| RuleError::Needs { rule: self.id.clone(), what: what.to_owned() };
+        let needs = |what: &str, key| RuleError::Needs {
+            rule: self.id.clone(),
+            needs: vec![RuleNeed::of_key(what, "[[window]]", key)],
+        };
         let Some(share) = &self.dwelling else { return Ok(None) };
         if rooms.is_empty() {
-            return Err(needs("dwellings with rooms"));
+            return Err(needs("dwellings with rooms", "room"));
         }
         let passing = |with: &[Verdict]| rooms.iter().filter(|room| with.contains(&room.verdict)).collect::<Vec<_>>();
         let (sure, perhaps) = (passing(&[Verdict::Pass]), passing(&[Verdict::Pass, Verdict::Close]));
@@ -69,7 +72,7 @@ impl ResolvedRule {
                 let floor: f64 = rooms.iter().map(|room| room.floor_m2).sum();
                 let has_all = rooms.iter().all(|room| room.floor_m2.is_finite() && room.floor_m2 > 0.0);
                 if !has_all {
-                    return Err(needs("the floor area of each room"));
+                    return Err(needs("the floor area of each room", "room_area"));
                 }
                 let share = |rooms: &[&RoomRuling]| rooms.iter().map(|room| room.floor_m2).sum::<f64>() / floor;
                 DwellingRuling {
@@ -97,9 +100,12 @@ impl ResolvedRule {
     }
 
     fn of_house(&self, number: usize, criterion: &Criterion, dwellings: &[DwellingSun]) -> Result<Finding, RuleError> {
-        let needs = |what: String| RuleError::Needs { rule: self.id.clone(), what };
+        let needs = |what: String, key| RuleError::Needs {
+            rule: self.id.clone(),
+            needs: vec![RuleNeed::of_key(what, "[[window]]", key)],
+        };
         if dwellings.is_empty() {
-            return Err(needs("dwellings".to_owned()));
+            return Err(needs("dwellings".to_owned(), "dwelling"));
         }
         let uses: &[String] = match &self.receiver {
             RuleReceiver::Window { all_of, .. } => all_of,
@@ -112,7 +118,8 @@ impl ResolvedRule {
             let secs: Vec<i64> = uses
                 .iter()
                 .map(|name| {
-                    secs(name).ok_or_else(|| needs(format!("a window or area of use {name} in {}", dwelling.name)))
+                    secs(name)
+                        .ok_or_else(|| needs(format!("a window or area of use {name} in {}", dwelling.name), "usage"))
                 })
                 .collect::<Result<_, _>>()?;
             let is_one_sunless = secs.contains(&0);

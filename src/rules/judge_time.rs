@@ -4,7 +4,7 @@
 use super::counting::{CountHow, CountedTime, SpellCount};
 use super::criterion::{Criterion, Demand, Extent};
 use super::days::DayJudge;
-use super::error::RuleError;
+use super::error::{RuleError, RuleNeed};
 use super::resolved::{CompareWith, ResolvedRule, RuleDay};
 use super::spell::{Spell, without};
 use super::verdict::{DayCase, Excuse, Finding, Quantity, Ruling, Verdict};
@@ -124,8 +124,8 @@ impl ResolvedRule {
     }
 
     pub(super) fn needs_before(&self) -> RuleError {
-        let what = "the state before, with which it compares".to_owned();
-        RuleError::Needs { rule: self.id.clone(), what }
+        let need = RuleNeed::of_key("the state before, with which it compares", "[before]", "");
+        RuleError::Needs { rule: self.id.clone(), needs: vec![need] }
     }
 
     fn finding(&self, number: usize, counts: CountedDay) -> Result<Finding, RuleError> {

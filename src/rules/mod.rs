@@ -34,7 +34,7 @@ pub use criterion::{Criterion, Demand, DwellingShare, Extent, RoomsNeeded, Sunle
 pub use cuts::{GrazingIn, SunCuts};
 pub use day_sun::DaySun;
 pub use days::{Dates, DayJudge, DayName, DaySet};
-pub use error::RuleError;
+pub use error::{RuleError, RuleNeed};
 pub use judge_area::{AreaLight, PartMet, ShadowLoad};
 pub use judge_group::{DwellingRuling, DwellingSun, RoomRuling};
 pub use judge_time::DayLight;

@@ -3,7 +3,7 @@
 use crate::choice::Misfit;
 use crate::gpu::GpuError;
 use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display, setting};
-use crate::rules::RuleError;
+use crate::rules::{RuleError, RuleNeed};
 use crate::shadow::ShadowError;
 use crate::sun::{SunError, Zone};
 use chrono::DateTime;
@@ -103,8 +103,39 @@ plain_display!(StudyError);
 
 impl From<RuleError> for StudyError {
     fn from(error: RuleError) -> StudyError {
-        StudyError::Rule(error.to_string().into())
+        let hint = if let RuleError::Needs { needs, .. } = &error { to_add(needs) } else { Vec::new() };
+        StudyError::Rule(Message { what: pieces![error.to_string()], hint })
     }
+}
+
+/// The keys of a site file that say what a rule needs, each once; nothing where none would help.
+fn to_add(needs: &[RuleNeed]) -> Vec<Piece> {
+    let mut keys: Vec<[&'static str; 2]> = Vec::new();
+    for key in needs.iter().filter_map(|need| need.said_at) {
+        if !keys.contains(&key) {
+            keys.push(key);
+        }
+    }
+    let mut hint = Vec::new();
+    for (number, [table, key]) in keys.iter().copied().enumerate() {
+        hint.push(Piece::from(match number {
+            0 => "add ",
+            _ if number + 1 == keys.len() => " and ",
+            _ => ", ",
+        }));
+        let written = if key.is_empty() { table.to_owned() } else { format!("`{key}` under {table}") };
+        hint.push(Piece::Setting {
+            table: table.into(),
+            key: key.into(),
+            value: None,
+            written: written.into(),
+            field: None,
+        });
+    }
+    if !hint.is_empty() {
+        hint.push(" to the site file".into());
+    }
+    hint
 }
 
 impl Worded for StudyError {

@@ -18,19 +18,45 @@ fn lacks(site: &JudgedSite, id: &str, options: &[(&str, &str)], words: &[&str]) 
 fn all_of_it_is_one_error() {
     let mut asked = site(super::london(), vec![nothing()], None);
     lacks(&asked, "uk-bre-209-sun-on-ground", &[], &["an area", "the state before"]);
-    lacks(&asked, "nl-the-hague", &[], &["a façade"]);
-    lacks(&asked, "jp-bsa-56-2", &[("plane", "4"), ("near", "3h"), ("far", "2h")], &["the plot"]);
-    lacks(&asked, "eu-en-17037-sunlight", &[("above", "DE")], &["a window"]);
+    lacks(&asked, "nl-the-hague", &[], &["a façade; add [[facade]] to the site file"]);
+    let japan = [("plane", "4"), ("near", "3h"), ("far", "2h")];
+    lacks(&asked, "jp-bsa-56-2", &japan, &["the plot; add [plot] to the site file"]);
+    lacks(&asked, "eu-en-17037-sunlight", &[("above", "DE")], &["a window; add [[window]] to the site file"]);
     asked.windows =
         vec![window("one", dvec3(0.0, 0.0, 1.0), DVec3::NEG_Y), window("two", dvec3(5.0, 0.0, 1.0), DVec3::NEG_Y)];
     asked.windows[1].floor = Some(0.0);
-    let all = ["the room of window \"one\", \"two\"", "the dwelling of", "height of the floor", "inner plane"];
+    let all = [
+        "the room of window \"one\", \"two\"",
+        "the dwelling of",
+        "height of the floor",
+        "inner plane",
+        "`floor` under [[window]]",
+        " and `room` under [[window]] to the site file",
+    ];
     lacks(&asked, "eu-en-17037-sunlight", &[("above", "DE")], &all);
     asked.areas = vec![area("court", [0.0, 0.0], [9.0, 9.0])];
     lacks(&asked, "au-vic-b21", &[], &["the state before"]);
     let border = vec![super::corner(0.0, 0.0), super::corner(9.0, 0.0), super::corner(9.0, 9.0)];
     asked.plot = Some(JudgedPlot { border, sides: vec![PlotSide::default(); 3], mean_ground: None });
-    lacks(&asked, "jp-bsa-56-2", &[("plane", "4"), ("near", "3h"), ("far", "2h")], &["mean level of the ground"]);
+    lacks(
+        &asked,
+        "jp-bsa-56-2",
+        &japan,
+        &["mean level of the ground", "; add `mean_ground` under [plot] to the site file"],
+    );
+}
+
+#[test]
+fn the_keys_that_would_say_it_are_named_once() {
+    let mut asked = site(super::london(), vec![nothing()], None);
+    let text = tried(&asked, "us-sf-295", &[]).expect_err("no area").to_string();
+    let both = "an area; the state before, with which it compares; add [[area]] and [before] to the site file";
+    assert_eq!(text, format!("rule us-sf-295 needs {both}"));
+    // no key would make a strip wider
+    asked.areas = vec![area("strip", [0.0, 0.0], [9.0, 1.0])];
+    asked.before = Some(super::state(vec![nothing()]));
+    let error = tried(&asked, "au-vic-b21", &[]).expect_err("too narrow");
+    assert!(error.to_string().contains("m wide and parts narrower") && !error.to_string().contains("add "), "{error}");
 }
 
 #[test]

@@ -7,8 +7,8 @@ use super::point_light::{CountedLight, PointLight, merit};
 use super::samples::{AreaSpot, AreaSums, Samples, SumKind};
 use crate::judgement::{AreaSize, JudgedThing, ReceiverRuling, ReceiverSpells, triangles, triangles_of_faces};
 use crate::rules::{
-    AreaLight, CountHow, CountedTime, Criterion, DayLight, Demand, Extent, PartMet, RuleError, Ruling, ShadowLoad,
-    Verdict, total_secs,
+    AreaLight, CountHow, CountedTime, Criterion, DayLight, Demand, Extent, PartMet, RuleError, RuleNeed, Ruling,
+    ShadowLoad, Verdict, total_secs,
 };
 use crate::site::{AreaSurface, JudgedArea};
 use crate::sun::SunError;
@@ -273,7 +273,7 @@ impl AreaWork<'_> {
             None => {
                 return Err(RuleError::Needs {
                     rule: judging.rule.id.clone(),
-                    what: "areas of more than 0 m²".to_owned(),
+                    needs: vec![RuleNeed::without_key("areas of more than 0 m²")],
                 }
                 .into());
             }
