@@ -69,10 +69,15 @@ impl PointCells {
     }
 
     /// Whether a point lies over the raster. Beyond it there is no ground that a block could stand on.
-    pub(super) fn has(&self, point: DVec3) -> bool {
+    fn has(&self, point: DVec3) -> bool {
         let from_first = (point.truncate() - self.grid.first) / self.grid.steps[0].x;
         let (column, row) = (from_first.x.round(), -from_first.y.round());
         (0.0..self.grid.columns as f64).contains(&column) && (0.0..self.grid.rows as f64).contains(&row)
+    }
+
+    /// Points over the cells, and those beyond them.
+    pub(super) fn parted(&self, points: Vec<DVec3>) -> (Vec<DVec3>, Vec<DVec3>) {
+        points.into_iter().partition(|point| self.has(*point))
     }
 
     /// The index of a point's cell; only rounding puts a point that the raster has beyond its border.

@@ -7,7 +7,7 @@ use super::point_cells::{CellBlocks, PointCells};
 use super::{NamedSheet, of_metres, thin};
 use crate::formats::left_out::LeftOutTally;
 use crate::formats::source::stem;
-use crate::formats::{Format, LeftOut, Model, ModelFault, PartKind, ReadOptions};
+use crate::formats::{Format, LeftOut, Model, ModelFault, Part, PartKind, ReadOptions};
 use crate::message::{Message, message};
 use glam::DVec3;
 use las::{Header, PointData, Reader};
@@ -66,6 +66,12 @@ impl Format for LasPoints {
     }
 }
 
+/// Lets a part also be selected by its class alone, and by the file's name.
+fn name_by_class(part: &mut Part, file: &str) {
+    let class = part.name.rsplit('/').next().unwrap_or_default().to_owned();
+    part.aliases.extend([class, file.to_owned()]);
+}
+
 /// The model of a file.
 fn model(path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
     let mut file = BufReader::new(File::open(path).map_err(ModelFault::unreadable)?);
@@ -104,16 +110,15 @@ fn model(path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
             left_out.push(LeftOut { what: format!("points of class {class}"), count: of_class.len() as u64, why });
             continue;
         }
-        let (of_class, beyond): (Vec<DVec3>, Vec<DVec3>) = of_class.into_iter().partition(|point| cells.has(*point));
+        let (of_class, beyond) = cells.parted(of_class);
         if !beyond.is_empty() {
             let what = format!("points of class {class}");
             left_out.push(LeftOut { what, count: beyond.len() as u64, why: "beyond the ground points".to_owned() });
         }
-        if of_class.is_empty() {
-            continue;
+        if !of_class.is_empty() {
+            let CellBlocks { positions, triangles } = cells.blocks(&of_class);
+            sheets.push((format!("{name}/{class}"), positions, triangles, PartKind::Building));
         }
-        let CellBlocks { positions, triangles } = cells.blocks(&of_class);
-        sheets.push((format!("{name}/{class}"), positions, triangles, PartKind::Building));
     }
     let other = points.others();
     if is_classified && other > 0 {
@@ -121,11 +126,7 @@ fn model(path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
         left_out.push(LeftOut { what: "points of other classes".into(), count: other, why });
     }
     let mut model = of_metres(sheets, map, notes);
-    for part in &mut model.parts {
-        // by the class alone, too
-        let class = part.name.rsplit('/').next().unwrap_or_default().to_owned();
-        part.aliases.extend([class, name.clone()]);
-    }
+    model.parts.iter_mut().for_each(|part| name_by_class(part, &name));
     left_out.extend(points.left_out.into_left_out());
     model.left_out = left_out;
     Ok(model)

@@ -146,7 +146,7 @@ impl Samples {
         AreaSums { sums, errors }
     }
 
-    /// Splits the triangles in which what is asked changes, until no sum's error is above what `allowed` gives for it, or there
+    /// Splits the triangles in which the numbers change, until no sum's error exceeds what `allowed` gives for it, or there
     /// are `most` points.
     pub(super) fn refine(
         &mut self,
