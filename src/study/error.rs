@@ -221,11 +221,16 @@ impl StudyError {
     /// Whether the command line was wrong (exit status 2).
     pub fn is_wrong_use(&self) -> bool {
         use StudyError::{Conflict, LittleMemory, Misfit, NoEnvelope, Rule, TooManyCells, TooManyRays};
-        match self {
-            Conflict { .. } | Misfit(_) | LittleMemory { .. } | TooManyCells { .. } | Rule(_) => true,
-            NoEnvelope { .. } | TooManyRays { .. } => true,
-            _ => false,
-        }
+        matches!(
+            self,
+            Conflict { .. }
+                | Misfit(_)
+                | LittleMemory { .. }
+                | TooManyCells { .. }
+                | Rule(_)
+                | NoEnvelope { .. }
+                | TooManyRays { .. }
+        )
     }
 
     /// The failure of a graphics device during the work, if that is the error. Another device could do the work.

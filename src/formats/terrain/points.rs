@@ -7,7 +7,7 @@ use super::point_cells::{CellBlocks, PointCells};
 use super::{NamedSheet, of_metres, thin};
 use crate::formats::left_out::LeftOutTally;
 use crate::formats::source::stem;
-use crate::formats::{Format, LeftOut, Model, ModelFault, Part, PartKind, ReadOptions};
+use crate::formats::{Format, LeftOut, Model, ModelFault, PartKind, ReadOptions};
 use crate::message::{Message, message};
 use glam::DVec3;
 use las::{Header, PointData, Reader};
@@ -67,7 +67,7 @@ impl Format for LasPoints {
 }
 
 /// Lets a part also be selected by its class alone, and by the file's name.
-fn name_by_class(part: &mut Part, file: &str) {
+fn name_by_class(part: &mut super::Part, file: &str) {
     let class = part.name.rsplit('/').next().unwrap_or_default().to_owned();
     part.aliases.extend([class, file.to_owned()]);
 }

@@ -62,6 +62,9 @@ pub(super) struct Samples {
 /// The numbers asked of a point, in their order.
 pub(super) type SpotFunction<'a> = &'a (dyn Fn(&AreaSpot) -> Result<Vec<f64>, SunError> + Sync);
 
+/// The error that the sum of a number may have, given the sums so far.
+pub(super) type AllowedError<'a> = &'a dyn Fn(&AreaSums, usize) -> f64;
+
 impl Samples {
     /// Cuts an area into triangles whose sides are at most `longest_m` long.
     pub(super) fn new(triangles: &[PartTriangle], longest_m: f64) -> Samples {
@@ -152,7 +155,7 @@ impl Samples {
         &mut self,
         kinds: &[SumKind],
         value: SpotFunction<'_>,
-        (allowed, most): (&dyn Fn(&AreaSums, usize) -> f64, usize),
+        (allowed, most): (AllowedError<'_>, usize),
         steps: &mut Steps<'_, '_>,
     ) -> Result<AreaSums, StudyError> {
         /// The number of rounds in which those triangles are split, too, in which a number may pass 0.
