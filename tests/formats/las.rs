@@ -4,7 +4,7 @@ use super::mutations::survives;
 use super::terrain::{above, notes, read};
 use crate::shared::memory::CountedThread;
 use glam::DVec2;
-use gnomon::formats::{Model, PartKind, ReadOptions};
+use gnomon::formats::{Coordinates, Model, PartKind, ReadOptions};
 
 /// Points over a plane that rises to the east, with a block of building points 6 m above it.
 fn points(is_compressed: bool, classify: bool) -> Vec<u8> {
@@ -166,6 +166,39 @@ fn points_that_become_ground_are_not_left_out() {
         assert!(notes(&model).contains("no points classified as ground"), "{}", notes(&model));
         assert!(model.left_out.is_empty(), "{:?}", model.left_out);
     }
+}
+
+/// The map is found in any of the extended records, and no length of theirs is believed.
+#[test]
+fn the_map_of_a_later_record_is_read() {
+    let record = |user: &str, number, data: &[u8]| las::Vlr {
+        user_id: user.to_owned(),
+        record_id: number,
+        description: String::new(),
+        data: data.to_vec(),
+    };
+    let other = || record("another", 2112, b"no map");
+    // projected, in EPSG:25832
+    let keys: Vec<u8> =
+        [1_u16, 1, 0, 2, 1024, 0, 1, 1, 3072, 0, 1, 25832].iter().flat_map(|it| it.to_le_bytes()).collect();
+    let with_keys = file_of(6, vec![other(), other(), record("LASF_Projection", 34735, &keys)], flat(2));
+    let model = read("keys.las", &with_keys, &ReadOptions::default()).unwrap();
+    assert_eq!(model.coordinates, Coordinates::Map("EPSG:25832".to_owned()));
+    let wkt = b"PROJCS[\"one\",AUTHORITY[\"EPSG\",\"25832\"]]\0";
+    let mut with_wkt = file_of(6, vec![other(), record("LASF_Projection", 2112, wkt)], flat(2));
+    let model = read("wkt.las", &with_wkt, &ReadOptions::default()).unwrap();
+    assert!(matches!(&model.coordinates, Coordinates::Map(map) if map.starts_with("PROJCS[\"one\"")));
+    // the length of the second record
+    let second = with_wkt.len() - wkt.len() - 60 + 20;
+    for (length, words) in [(u64::MAX, "it says its map in"), (1 << 20, "end beyond its end")] {
+        with_wkt[second..second + 8].copy_from_slice(&length.to_le_bytes());
+        let told = read("wkt.las", &with_wkt, &ReadOptions::default()).expect_err(words);
+        assert!(told.contains(words), "{told}");
+    }
+    let mut many = with_keys;
+    many[EXTENDED_AT + 8..EXTENDED_AT + 12].copy_from_slice(&[255; 4]);
+    let told = read("many.las", &many, &ReadOptions::default()).expect_err("more than any file has");
+    assert!(told.contains("4294967295 extended records"), "{told}");
 }
 
 /// The numbers of a header by which a decoder takes memory.

@@ -178,11 +178,11 @@ fn halves(both: u64) -> [u64; 2] {
     [both & u64::from(u32::MAX), both >> 32]
 }
 
-fn cut_off(what: &str) -> ModelFault {
+pub(super) fn cut_off(what: &str) -> ModelFault {
     message![format!("is cut off: {what}"); "copy or export it again"].into()
 }
 
-fn damaged(what: &str) -> ModelFault {
+pub(super) fn damaged(what: &str) -> ModelFault {
     message![format!("is damaged: {what}"); "copy or export it again"].into()
 }
 

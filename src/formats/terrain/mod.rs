@@ -9,6 +9,7 @@ mod geokeys;
 mod geotiff;
 mod grid;
 mod landxml;
+mod las_records;
 mod las_sizes;
 mod map;
 mod no_data;

@@ -1,6 +1,7 @@
 //! Reads LAS and LAZ: measured points by class. Ground becomes terrain; buildings and vegetation are read on request.
 
 use super::geokeys::MapKeys;
+use super::las_records::{self, MapRecord};
 use super::las_sizes::{self, unusable};
 use super::map::TerrainMap;
 use super::point_cells::{CellBlocks, PointCells};
@@ -10,7 +11,7 @@ use crate::formats::source::stem;
 use crate::formats::{Format, LeftOut, Model, ModelFault, PartKind, ReadOptions};
 use crate::message::{Message, message};
 use glam::DVec3;
-use las::{Header, PointData, Reader};
+use las::{Header, PointData, Reader, Vlr};
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{BufReader, Seek as _};
@@ -76,9 +77,10 @@ fn name_by_class(part: &mut super::Part, file: &str) {
 fn model(path: &Path, options: &ReadOptions) -> Result<Model, ModelFault> {
     let mut file = BufReader::new(File::open(path).map_err(ModelFault::unreadable)?);
     las_sizes::hold(&mut file)?;
+    let extended = las_records::extended(&mut file)?;
     file.rewind().map_err(ModelFault::unreadable)?;
     let mut reader = Reader::new(file).map_err(unusable)?;
-    let keys = keys(reader.header());
+    let keys = keys(reader.header(), &extended);
     let mut notes = Vec::new();
     let map = TerrainMap::of(keys.crs, keys.height_unit_m, keys.map_unit_m, &mut notes);
     let points = ClassedPoints::read(&mut reader, map.height_unit_m)?;
@@ -210,16 +212,19 @@ fn withheld(points: &PointData) -> impl Iterator<Item = bool> {
     records.map(move |record| record.get(FLAGS_AT).is_some_and(|flags| flags & flag != 0))
 }
 
-/// The map of the points: from WKT if there is any, otherwise from GeoTIFF's keys.
-fn keys(header: &Header) -> MapKeys {
-    let record = |number: u16| {
-        header.all_vlrs().find(|record| record.record_id == number && record.user_id == "LASF_Projection")
+/// The map of the points: from WKT if there is any, otherwise from GeoTIFF's keys, wherever their records stand.
+fn keys(header: &Header, extended: &[MapRecord]) -> MapKeys {
+    let record = |number: u16| -> Option<&[u8]> {
+        let is_it = |record: &&Vlr| record.record_id == number && record.user_id == las_records::PROJECTION;
+        let plain = header.vlrs().iter().find(is_it).map(|record| record.data.as_slice());
+        plain.or_else(|| Some(extended.iter().find(|record| record.number == number)?.data.as_slice()))
     };
     let shorts = |bytes: &[u8]| bytes.as_chunks::<2>().0.iter().map(|pair| u16::from_le_bytes(*pair)).collect();
-    let directory: Vec<u16> = record(34735).map(|record| shorts(&record.data)).unwrap_or_default();
-    let text = |number| record(number).map(|record| String::from_utf8_lossy(&record.data).into_owned());
-    let keys = MapKeys::of(&directory, &text(34737).unwrap_or_default());
-    let wkt = text(2112).map(|wkt| wkt.trim_end_matches('\0').trim().to_owned()).filter(|wkt| !wkt.is_empty());
+    let directory: Vec<u16> = record(las_records::KEYS).map(shorts).unwrap_or_default();
+    let text = |number| record(number).map(|data| String::from_utf8_lossy(data).into_owned());
+    let keys = MapKeys::of(&directory, &text(las_records::KEY_TEXTS).unwrap_or_default());
+    let wkt =
+        text(las_records::WKT).map(|wkt| wkt.trim_end_matches('\0').trim().to_owned()).filter(|wkt| !wkt.is_empty());
     match wkt {
         Some(wkt) => MapKeys { height_unit_m: vertical_unit_m(&wkt), crs: Some(wkt), ..keys },
         None => keys,
