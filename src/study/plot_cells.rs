@@ -6,7 +6,7 @@ use crate::view::{Grid, Surface};
 use glam::DVec2;
 
 /// The most cells of a plot with its surroundings.
-const MOST_CELLS: f64 = 16e6;
+const MOST_CELLS: f64 = 1e6;
 
 /// Around a plot so much is shown: a part of its longer side, and at least so many metres.
 const AROUND: f64 = 0.35;

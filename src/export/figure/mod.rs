@@ -190,7 +190,7 @@ fn instant_panel(scene: &FigureContext, view: &View, now: &Instant, shown: &Pict
         Some((_, diagram)) => diagram.title(),
         None => "Shadow",
     };
-    let mut panel = panel(scene, kicker);
+    let mut panel = panel_of_instants(scene, kicker);
     let seen = match view {
         View::Camera(_) => Some("what the camera sees"),
         // but not the earth that is cut
@@ -274,13 +274,27 @@ const UNJUDGED: &str = "not judged";
 /// The label of the fact that a camera's view replaces.
 const JUDGED: &str = "Judged";
 
+/// The label of the fact behind which drawings of hours say what is between the instants.
+const STEP: &str = "Step";
+
 fn check_surface(surface: &Surface, (width, height): (u32, u32)) -> Result<(), ExportError> {
     check_size("surface", surface.face.len(), width, height)?;
     check_size("surface's heights", surface.height_m.len(), width, height)
 }
 
-/// The panel that all drawings share, without a legend.
+/// The panel of drawings of hours, without a legend: with what is between the instants.
 fn panel<S>(scene: &FigureContext<S>, kicker: &str) -> Panel {
+    let mut panel = panel_of_instants(scene, kicker);
+    let between = report::between_instants(scene.drawn, (scene.receivers, &scene.ground), scene.track);
+    if let Some(said) = between {
+        let after = panel.facts.iter().position(|(label, _)| *label == STEP).map_or(0, |at| at + 1);
+        panel.facts.insert(after, ("Between", said));
+    }
+    panel
+}
+
+/// The panel that all drawings share, without a legend.
+fn panel_of_instants<S>(scene: &FigureContext<S>, kicker: &str) -> Panel {
     let (place, track) = (scene.place, scene.track);
     let name = text::clean(&place.name);
     let nameless = name.is_empty();
@@ -294,11 +308,7 @@ fn panel<S>(scene: &FigureContext<S>, kicker: &str) -> Panel {
     facts.push(("Ground", words::ground(&scene.ground)));
     if track.instants.len() > 1 {
         let (step, count) = (words::duration(track.step_secs), track.instants.len());
-        facts.push(("Step", format!("{step}, {count} instants")));
-        facts.extend(
-            report::between_instants(scene.drawn, (scene.receivers, &scene.ground), track)
-                .map(|said| ("Between", said)),
-        );
+        facts.push((STEP, format!("{step}, {count} instants")));
     }
     if track.each_day.is_some() {
         let day = track.instants.iter().filter(|instant| !instant.night);

@@ -72,7 +72,7 @@ pub fn outlines<S: SurfaceRows>(
 
 /// The panel beside the outlines.
 fn panel<S>(scene: &FigureContext<S>, grid: &Grid, drawn: &[DrawnOutline]) -> Panel {
-    let mut panel = figure::panel(scene, "Shadow outlines");
+    let mut panel = figure::panel_of_instants(scene, "Shadow outlines");
     panel.facts.push(("Cells", figure::cells(grid.width, grid.height, grid.cell)));
     panel.legend_head = "The shadow’s outline at".to_owned();
     panel.keys.extend(drawn.iter().map(|drawn| (drawn.colour, drawn.time.clone())));
