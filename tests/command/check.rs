@@ -74,6 +74,8 @@ fn footprints_without_heights_are_told_once() {
     fails(folder.path(), "check town.geojson", 1, &["but no height of any of them", "--default-height"]);
     let told = stderr(&gnomon(folder.path(), "check town.geojson"));
     assert_eq!(told.matches("has 1 footprint").count(), 1, "{told}");
+    // of a model alone, the option is its own height and that of all
+    assert_eq!(told.matches("--default-height").count(), 1, "{told}");
 }
 
 /// The sun is that of studies, also if a model's file has the place's elevation.
