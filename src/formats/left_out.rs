@@ -45,11 +45,12 @@ impl LeftOutTally {
 }
 
 /// Gnomon's own plurals with their singulars; a file's own terms are not changed.
-const ONE_OF_MANY: [(&str, &str); 22] = [
+const ONE_OF_MANY: [(&str, &str); 23] = [
     ("contents", "content"),
     ("entities", "entity"),
     ("faces", "face"),
     ("features", "feature"),
+    ("footprints", "footprint"),
     ("geometries", "geometry"),
     ("hidden faces", "hidden face"),
     ("implicit tilings", "implicit tiling"),

@@ -118,8 +118,8 @@ impl Models {
         notes.extend(model_place::of_shifts(&references));
         let mesh = Mesh::build(parts).map_err(|error| no_mesh(&models, error))?;
         let likenesses = likenesses(written, &mesh, &models, &said);
-        for ((model, components), likeness) in models.iter().zip(&likenesses) {
-            notes.extend(notes::of_model(&mesh, model, components.clone(), &likeness.mends));
+        for (((model, components), likeness), place) in models.iter().zip(&likenesses).zip(&references) {
+            notes.extend(notes::of_model(&mesh, model, components.clone(), &likeness.mends, place.crs.is_some()));
         }
         notes.extend(notes::of_all(&mesh, far_from(written, proposed.as_ref(), is_on_earth)));
         let likenesses = likenesses.into_iter().filter(|likeness| !likeness.mends.is_empty()).collect();

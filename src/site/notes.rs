@@ -57,12 +57,19 @@ fn crs() -> Piece {
 }
 
 /// The notes on one of the models, each a sentence without a full stop that begins with its name.
-pub(super) fn of_model(mesh: &Mesh, model: &str, components: Range<usize>, mends: &[Mend]) -> Vec<Message> {
+/// `has_crs`: whether a reference system places it.
+pub(super) fn of_model(
+    mesh: &Mesh,
+    model: &str,
+    components: Range<usize>,
+    mends: &[Mend],
+    has_crs: bool,
+) -> Vec<Message> {
     let components = &mesh.components[components];
     let mut notes = likeness::notes(model, mends);
     // with the wrong unit everything seems far away
     if !mends.iter().any(|mend| matches!(mend, Mend::Scale(_))) {
-        notes.extend(far_off(mesh, model, components).into_iter().chain(rounded(model, components)));
+        notes.extend(far_off(mesh, model, components, has_crs).into_iter().chain(rounded(model, components)));
     }
     notes
 }
@@ -99,7 +106,7 @@ fn asked_far(what: &str, key: Piece, at: DVec2) -> Option<Message> {
 }
 
 /// A note on the parts of a model that stand far from everything else.
-fn far_off(mesh: &Mesh, model: &str, components: &[Component]) -> Option<Message> {
+fn far_off(mesh: &Mesh, model: &str, components: &[Component], has_crs: bool) -> Option<Message> {
     let strays = |component: &Component| -> Vec<f64> {
         let faces = &mesh.faces[component.faces.start as usize..component.faces.end as usize];
         let away = |face: &[u32; 3]| {
@@ -119,8 +126,12 @@ fn far_off(mesh: &Mesh, model: &str, components: &[Component]) -> Option<Message
     let far = kilometres(farthest(found) / 1000.0);
     let triangles: usize = of_component.iter().map(|(_, found)| found.len()).sum();
     if triangles == components.iter().map(|component| component.faces.len()).sum::<usize>() {
+        let what = format!("{model} stands {far} from everything else, and the default region and camera leave it out");
+        if has_crs {
+            return Some(message![what; "check that its reference system is the right one, or write ", position()]);
+        }
         return Some(message![
-            format!("{model} stands {far} from everything else, and the default region and camera leave it out");
+            what;
             "if it is in map coordinates, write ", crs(), ", which turns it and moves it to the place, or ", position()
         ]);
     }

@@ -67,6 +67,18 @@ fn a_model_without_an_ending_is_converted() {
     fails(folder.path(), "convert site.toml out.glb", 2, &["site.toml is not a model"]);
 }
 
+/// Of a model alone, the option is its own height and that of all: the hint names it once.
+#[test]
+fn the_hint_on_heights_of_a_model_alone_names_the_option_once() {
+    let folder = site();
+    let high = FOOTPRINT.replacen("\"yes\"", "\"yes\", \"height\": 9", 1);
+    fs::write(folder.path().join("town.geojson"), format!("{high}\n{FOOTPRINT}")).unwrap();
+    let report = json(folder.path(), "check town.geojson --json");
+    let notes = report["notes"].as_array().expect("notes");
+    let hint = notes.iter().filter_map(Value::as_str).find(|note| note.contains("without a height")).expect("a note");
+    assert!(hint.ends_with("set --default-height for this one"), "{hint}");
+}
+
 #[test]
 fn footprints_without_heights_are_told_once() {
     let folder = site();

@@ -110,6 +110,7 @@ fn what_is_left_out_is_counted_in_words_for_one_and_many() {
     let told = |count: u64, what: &str| LeftOut { what: what.to_owned(), count, why: String::new() }.counted();
     assert_eq!(told(1, "faces"), "1 face");
     assert_eq!(told(2, "faces"), "2 faces");
+    assert_eq!(told(1, "footprints"), "1 footprint");
     assert_eq!(told(1, "entities of the layer Faces"), "1 entity of the layer Faces");
     // a file's own terms are as they are
     assert_eq!(told(1, "IfcStairs"), "1 IfcStairs");

@@ -69,6 +69,8 @@ fn measured_points_become_ground_and_what_is_asked() {
         assert!((top - 58.5).abs() < 0.2, "{top}");
         assert!(above(&model.parts[1], DVec2::new(15.0, 15.0)).is_none());
     }
+    let told = notes(&read("points.las", points(false, true), &ReadOptions::default()).unwrap());
+    assert!(told.contains("over cells of 1 unit of its map;"), "{told}");
     let told = notes(&read("points.las", points(false, false), &ReadOptions::default()).unwrap());
     assert!(told.contains("no points classified as ground"), "{told}");
 }

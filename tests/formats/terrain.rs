@@ -121,6 +121,11 @@ fn a_grid_is_terrain_where_its_head_says() {
     let model = read("hills.asc", ascii_grid(&head()), &ReadOptions::default()).unwrap();
     assert_eq!((model.kind(0), model.coordinates.clone()), (PartKind::Terrain, Coordinates::Local));
     assert!(notes(&model).contains("109 cells without a height"), "{}", notes(&model));
+    for (side, words) in [("1", " 1 unit apart"), ("2", " 2 units apart")] {
+        let head = head().replacen("cellsize 2", &format!("cellsize {side}"), 1);
+        let told = notes(&read("hills.asc", ascii_grid(&head), &ReadOptions::default()).unwrap());
+        assert!(told.contains(words), "{told}");
+    }
     let centre = head().replace("xllcorner", "xllcenter").replace("yllcorner", "yllcenter");
     let moved = read("hills.asc", ascii_grid(&centre), &ReadOptions::default()).unwrap();
     let low = |model: &Model| model.parts[0].positions.iter().fold(DVec3::INFINITY, |low, point| low.min(*point));

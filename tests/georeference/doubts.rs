@@ -293,3 +293,27 @@ fn the_files_own_unit_as_scale_changes_no_corner() {
         assert_eq!(corners(&said.mesh, 0), corners(&own.mesh, 0), "{unit_m}");
     }
 }
+
+/// A model that stands far from the others is asked for its reference system only if it has none.
+#[test]
+fn crs_is_only_proposed_to_a_model_without_one() {
+    let at = |east: f64| {
+        on_map(
+            "EPSG:25832",
+            [[0.0, 0.0], [20.0, 0.0], [20.0, 30.0]].map(|[x, y]| [UTM[0] + east + x, UTM[1] + y]),
+            110.0,
+        )
+    };
+    let hint = |keys: &str, far: Model| {
+        let tables = ["one.glb", "two.glb", "far.glb"].map(|name| format!("[[model]]\npath = \"{name}\"\n"));
+        let models = [("one.glb", at(0.0)), ("two.glb", at(30.0)), ("far.glb", far)];
+        let site = load(&format!("{PLACE}{}{keys}", tables.concat()), &models).expect("a site");
+        let notes = said(&site.notes);
+        let note = notes.iter().find(|note| note.contains("from everything else"));
+        note.unwrap_or_else(|| panic!("{notes:?}")).clone()
+    };
+    let placed = hint("", at(100_000.0));
+    assert!(!placed.contains("`crs") && placed.contains("`position`"), "{placed}");
+    let unplaced = hint("position = [100000.0, 0.0, 0.0]\n", drawing());
+    assert!(unplaced.contains("write `crs"), "{unplaced}");
+}

@@ -11,7 +11,7 @@ use super::left_out::{LeftOutTally, counted, listed};
 use super::{Coordinates, MAX_TRIANGLES, Model, ModelFault, Up};
 use crate::crs::{Crs, CrsKind};
 use crate::mesh::Part;
-use crate::message::{Field, Message, Piece, few, message, setting};
+use crate::message::{Field, Message, Piece, few, message, pieces, setting};
 use extrude::FootprintOutline;
 pub(super) use flatgeobuf::FlatGeobuf;
 use footprint::{Footprint, NO_AREA, RingPolygon, names_of};
@@ -177,7 +177,7 @@ impl Footprints {
         if told.without.count > 0 && outlines.is_empty() && self.bodies.is_empty() {
             let what = format!("has {}, but no height of any of them", told.without.told("footprint"));
             let hint = " for this one, or export them with their heights in metres as \"height\"";
-            return Err(message![what; "set ", Field::DefaultHeight, " for all models, or ", own_height(), hint].into());
+            return Err(message![what; "set ", for_all(), own_height(), hint].into());
         }
         self.tally.add_many("footprints", "they have no height", told.without.count);
         self.note(&told, default_height_m);
@@ -228,9 +228,7 @@ impl Footprints {
         }
         if without.count > 0 {
             let what = format!("has {} without a height, left out", without.told("footprint"));
-            self.notes.push(
-                message![what; "set ", Field::DefaultHeight, " for all models, or ", own_height(), " for this one"],
-            );
+            self.notes.push(message![what; "set ", for_all(), own_height(), " for this one"]);
         }
         if unread.count > 0 {
             let what = format!(
@@ -258,6 +256,11 @@ fn unread_bottom_note(unread: &NamedFootprints) -> Option<Message> {
         unread.told("bottom")
     );
     (unread.count > 0).then(|| message![what; "write them in metres above the ground, with a point"])
+}
+
+/// The field for the heights of all models, for faces that have it; of a model alone, it is what its own height is.
+fn for_all() -> Piece {
+    Piece::Where(Field::DefaultHeight, pieces![Field::DefaultHeight, " for all models, or "])
 }
 
 /// The key for the height of one model's footprints.

@@ -51,13 +51,25 @@ impl HeightGrid {
     /// The spacing of the samples, for a message; `unit` is that of the file's coordinates.
     pub(super) fn spacing(&self, unit: &str) -> String {
         let [across, down] = self.steps.map(|step| rounded(step.length()));
-        if across == down { format!("{across} {unit} apart") } else { format!("{across} × {down} {unit} apart") }
+        if across == down {
+            format!("{} apart", of_unit(across, unit))
+        } else {
+            format!("{across} × {down} {unit} apart")
+        }
     }
 
     /// Whether the triangles of [`super::thin`] must be flipped to face up, given the directions of the rows.
     pub(super) fn is_mirrored(&self) -> bool {
         self.steps[0].perp_dot(self.steps[1]) < 0.0
     }
+}
+
+/// A length in a file's unit: `1 unit of its map`, `2 units of its map`.
+pub(super) fn of_unit(length: f64, unit: &str) -> String {
+    let one = [("units", "unit"), ("degrees", "degree")]
+        .into_iter()
+        .find_map(|(many, one)| Some(format!("1 {one}{}", unit.strip_prefix(many)?)));
+    one.filter(|_| length == 1.0).unwrap_or_else(|| format!("{length} {unit}"))
 }
 
 /// Rounds to three digits, for messages.

@@ -1,6 +1,6 @@
 //! Makes heights on a raster from points, and blocks that stand on it.
 
-use super::grid::HeightGrid;
+use super::grid::{HeightGrid, of_unit};
 use crate::formats::ModelFault;
 use crate::message::{Message, message};
 use glam::{DVec2, DVec3};
@@ -133,21 +133,21 @@ impl PointCells {
 
     /// The notes on the raster.
     pub(super) fn notes(&self, is_classified: bool) -> Vec<Message> {
-        let cell = self.grid.steps[0].x;
+        let cell = of_unit(self.grid.steps[0].x, "units of its map");
         let cells = self.grid.heights.len();
         let mut notes = Vec::new();
         if is_classified {
             let [usual, most] = self.deviations;
             notes.push(
                 format!(
-                    "is averaged over cells of {cell} units of its map; nine in ten of its ground points lie within \
+                    "is averaged over cells of {cell}; nine in ten of its ground points lie within \
                      {usual:.2} m of their cell's height, all within {most:.2} m"
                 )
                 .into(),
             );
         } else {
             notes.push(message![
-                format!("has no points classified as ground, so the lowest point in each cell of {cell} units of its map is taken as ground");
+                format!("has no points classified as ground, so the lowest point in each cell of {cell} is taken as ground");
                 "classify its ground points, and export it again"
             ]);
         }
