@@ -74,7 +74,7 @@ fn keys_that_exclude_each_other_are_told() {
     super::write(&upright, "town.obj", &super::Drawing::default().object("fence").sheet(fence).text);
     super::fails_in(upright.path(), &["[[area]] component", "no face that looks upward"]);
     let twice = format!("{}{}", area("[[0, 0], [1, 0], [0, 1]]"), area("[[5, 5], [6, 5], [5, 6]]"));
-    fails(&twice, &["[[area]] number 2 name", "\"Garden\"", "otherwise"]);
+    fails(&twice, &["[[area]] number 2 name", "\"Garden\"", "own name"]);
 }
 
 #[test]

@@ -1,9 +1,9 @@
 //! An area as triangles with points at their corners, split where what is asked of it changes.
 //!
-//! A number is taken to change evenly from corner to corner, so that the part of a triangle in which it is not below 0 is cut
-//! off by a straight line. How wrong that is shows when the triangle is split: the sum over its four parts is another one.
-//! The error that is reported is the sum of what the last splits changed, all taken as of one sign; as each split lowers it
-//! to less than the half, what further ones would change is less.
+//! A part of an area is bounded from both sides: by the triangles whose corners all keep the demand, and by those of which
+//! some corners do. The middle between the two is reported, with half of their difference as its error. Near a long wall the
+//! time in the sun jumps within a step, so that nothing is known of it between two corners that differ. Of a number's sum
+//! the error is what the last splits of triangles changed, added up without signs.
 
 use super::super::StudyError;
 use super::judging::Steps;
@@ -138,7 +138,7 @@ impl Samples {
                 let three = self.of_leaf(leaf.corners, number);
                 let error = match kind {
                     _ if !is_open(kind, three) => 0.0,
-                    SumKind::Part => leaf.changed.get(number).copied().unwrap_or(leaf.m2 / 2.0),
+                    SumKind::Part => leaf.m2 / 2.0,
                     SumKind::Number => leaf.changed.get(number).copied().unwrap_or(leaf.m2 * spread(three)),
                 };
                 (leaf.m2 * part(kind, three), error)
@@ -169,16 +169,11 @@ impl Samples {
             if pass >= AT_LEAST && is_good() || self.spots.len() > most {
                 break;
             }
-            // what all triangles may keep that are not split any more is the half of what is allowed
-            let kept: Vec<f64> =
-                (0..kinds.len()).map(|number| allowed[number] / 2.0 / self.open(kinds, number)).collect();
             let leaves = std::mem::take(&mut self.leaves);
             let is_split = |leaf: &Leaf| {
                 (0..kinds.len()).any(|number| {
                     let three = self.of_leaf(leaf.corners, number);
-                    let is_rough = || leaf.changed.get(number).is_none_or(|changed| *changed > kept[number]);
-                    is_open(kinds[number], three) && (pass < AT_LEAST || is_rough())
-                        || pass < AT_LEAST && is_near(kinds[number], three)
+                    is_open(kinds[number], three) || pass < AT_LEAST && is_near(kinds[number], three)
                 })
             };
             let (split, whole): (Vec<Leaf>, Vec<Leaf>) = leaves.into_iter().partition(is_split);
@@ -190,12 +185,6 @@ impl Samples {
             sums = self.sums(kinds);
         }
         Ok(sums)
-    }
-
-    /// The number of triangles in which a number is open, at least 1.
-    fn open(&self, kinds: &[SumKind], number: usize) -> f64 {
-        let is_open = |leaf: &&Leaf| is_open(kinds[number], self.of_leaf(leaf.corners, number));
-        self.leaves.iter().filter(is_open).count().max(1) as f64
     }
 
     /// Splits leaves into four each, and records how much that changes them.
@@ -282,25 +271,11 @@ fn spread(three: [f64; 3]) -> f64 {
     a.max(b).max(c) - a.min(b).min(c)
 }
 
-/// The part of a triangle in which a number is not below 0, or the number's mean.
+/// The part of a triangle in which a number is not below 0, half of it where the corners differ; or the number's mean.
 fn part(kind: SumKind, three: [f64; 3]) -> f64 {
     match kind {
         SumKind::Number => three.iter().sum::<f64>() / 3.0,
-        SumKind::Part => {
-            let [low, middle, high] = sorted(three);
-            // the line cuts off the corner that is alone on its side of it
-            let corner = |alone: f64, others: [f64; 2]| alone * alone / ((alone - others[0]) * (alone - others[1]));
-            match [low, middle, high].iter().filter(|value| **value >= 0.0).count() {
-                0 => 0.0,
-                1 => corner(high, [low, middle]),
-                2 => 1.0 - corner(low, [middle, high]),
-                _ => 1.0,
-            }
-        }
+        SumKind::Part if is_open(kind, three) => 0.5,
+        SumKind::Part => f64::from(u8::from(three[0] >= 0.0)),
     }
-}
-
-fn sorted(mut three: [f64; 3]) -> [f64; 3] {
-    three.sort_by(f64::total_cmp);
-    three
 }
