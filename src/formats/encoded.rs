@@ -22,7 +22,7 @@ const MARK: [u8; 8] = *b"gnomonMD";
 
 /// The version of the bytes and of the readers. It changes when readers read files differently, so that older entries
 /// of the cache are not used.
-pub(super) const VERSION: u32 = 2;
+pub(super) const VERSION: u32 = 3;
 
 /// The longest JSON: a thousand bytes per component.
 const MOST_JSON: u64 = 1 << 30;
