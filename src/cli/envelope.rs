@@ -1,32 +1,19 @@
 //! `gnomon envelope`: how high may be built on the site's plot.
 
-use super::arguments::{Common, SiteArgs};
-use super::judge::{chosen, folder_of, rule_file, wrong_use};
-use super::model::ModelArgs;
+use super::arguments::Common;
 use super::output::{say, who};
 use super::progress::Progress;
+use super::ruled_site::{RuledSite, RuledSiteArgs};
 use super::wrong_use::WrongUse;
 use crate::deliver::envelope::{EnvelopeRequest, envelope as deliver};
 use crate::deliver::{Folder, Sink};
-use crate::rules::rule_for_site;
-use crate::site::load_judged;
-use crate::study::settle;
 use clap::Args;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub(super) struct EnvelopeArgs {
     #[command(flatten)]
-    site: SiteArgs,
-    #[command(flatten)]
-    model: ModelArgs,
-    /// The rule whose windows, areas, façades or lines keep their sun: the name of a file beside the site, ID.toml, or a
-    /// built-in one as `gnomon rules` lists them
-    #[arg(long, value_name = "ID")]
-    rule: String,
-    /// What the rule leaves to the authority: hours=2h. May be repeated
-    #[arg(long, value_name = "KEY=VALUE", allow_hyphen_values = true)]
-    set: Vec<String>,
+    ruled: RuledSiteArgs,
     /// Side of a cell of the plot, metres [default: a round one, of which the longer side has 100 to 200]
     #[arg(long, value_name = "M", allow_negative_numbers = true)]
     cell: Option<f64>,
@@ -46,16 +33,9 @@ pub(super) fn envelope(asked: &EnvelopeArgs) -> anyhow::Result<()> {
             return Err(WrongUse(format!("{option} takes {least} to 10000 metres")).into());
         }
     }
-    let folder = folder_of(asked.site.path());
-    let rule = rule_for_site(&asked.rule, folder).map_err(wrong_use)?;
-    let resolved = rule.resolve(&chosen(&asked.set)?).map_err(wrong_use)?;
-    let overrides = asked.model.onto(asked.site.overrides()?);
-    let site = settle(load_judged(asked.site.path(), &overrides)?)?;
-    let request =
-        EnvelopeRequest { source: &rule.source, rule: &resolved, cell_m: asked.cell, highest_m: asked.highest };
+    let RuledSite { source, rule, site, inputs } = asked.ruled.read()?;
+    let request = EnvelopeRequest { source: &source, rule: &rule, cell_m: asked.cell, highest_m: asked.highest };
     let mut progress = Progress::of("days", asked.common.quiet);
-    let mut inputs = asked.site.inputs()?;
-    inputs.extend(rule_file(&asked.rule, folder));
     let sink = Sink::Folder(Folder { path: &asked.out, who: &who(), inputs: &inputs });
     let answer = deliver(&site, request, sink, &mut |event| progress.heard(&event))?;
     match asked.common.json {

@@ -26,6 +26,7 @@ mod profile;
 mod progress;
 mod read_model;
 mod reading_progress;
+mod ruled_site;
 mod rules;
 mod technique;
 mod values;

@@ -1,0 +1,85 @@
+//! A site and the rule of an authority that is applied to it, as `gnomon judge` and `gnomon envelope` take them.
+
+use super::arguments::SiteArgs;
+use super::model::ModelArgs;
+use super::wrong_use::WrongUse;
+use crate::rules::{ResolvedRule, RuleError, RuleSource, rule_for_site};
+use crate::site::{JudgedSite, load_judged};
+use crate::study::settle;
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, Args)]
+pub(super) struct RuledSiteArgs {
+    #[command(flatten)]
+    site: SiteArgs,
+    #[command(flatten)]
+    model: ModelArgs,
+    /// The rule: the name of a file beside the site, ID.toml, or a built-in one as `gnomon rules` lists them
+    #[arg(long, value_name = "ID")]
+    rule: String,
+    /// What the rule leaves to the authority: hours=2h. May be repeated
+    #[arg(long, value_name = "KEY=VALUE", allow_hyphen_values = true)]
+    set: Vec<String>,
+}
+
+/// What was read of it.
+pub(super) struct RuledSite {
+    pub(super) source: RuleSource,
+    /// The rule with its options chosen.
+    pub(super) rule: ResolvedRule,
+    pub(super) site: JudgedSite,
+    /// The files that were read, over which nothing may be written.
+    pub(super) inputs: Vec<PathBuf>,
+}
+
+impl RuledSiteArgs {
+    /// Reads the rule first, as that is quick, and then the site with its models.
+    pub(super) fn read(&self) -> anyhow::Result<RuledSite> {
+        let folder = folder_of(self.site.path());
+        let written = rule_for_site(&self.rule, folder).map_err(wrong_use)?;
+        let rule = written.resolve(&chosen(&self.set)?).map_err(wrong_use)?;
+        let overrides = self.model.onto(self.site.overrides()?);
+        let site = settle(load_judged(self.site.path(), &overrides)?)?;
+        let mut inputs = self.site.inputs()?;
+        inputs.extend(rule_file(&self.rule, folder));
+        Ok(RuledSite { source: written.source, rule, site, inputs })
+    }
+}
+
+/// The folder of the site's own rules.
+fn folder_of(site: &Path) -> &Path {
+    if site.is_dir() { site } else { site.parent().unwrap_or(Path::new("")) }
+}
+
+/// The file that is read as the rule, if there is one; no table may be written over it.
+fn rule_file(name: &str, folder: &Path) -> Option<PathBuf> {
+    let path = folder.join(if name.ends_with(".toml") { name.to_owned() } else { format!("{name}.toml") });
+    path.is_file().then_some(path)
+}
+
+/// Reads `hours=2h` for a rule's options.
+fn chosen(set: &[String]) -> Result<Vec<(&str, &str)>, WrongUse> {
+    let mut chosen: Vec<(&str, &str)> = Vec::new();
+    for text in set {
+        let (name, value) = text
+            .split_once('=')
+            .filter(|(name, _)| !name.is_empty())
+            .ok_or_else(|| WrongUse(format!("--set {text}: write it as --set hours=2h")))?;
+        if chosen.iter().any(|(known, _)| *known == name) {
+            return Err(WrongUse(format!("--set {name}= stands twice; say it once")));
+        }
+        chosen.push((name, value));
+    }
+    Ok(chosen)
+}
+
+fn wrong_use(error: RuleError) -> WrongUse {
+    let hint = match &error {
+        RuleError::UnknownRule { .. } => "; gnomon rules lists them",
+        RuleError::Unsaid { .. } => "; say each as --set NAME=VALUE",
+        RuleError::UnknownOption { .. } | RuleError::OptionValue { .. } => "; gnomon rules lists each rule's options",
+        _ => "",
+    };
+    WrongUse(format!("{error}{hint}"))
+}
