@@ -1,15 +1,5 @@
 // What each cell sees of the receivers and the ground: depth and face. Drawn once per study.
 
-struct Corner {
-    @builtin(position) @invariant position: vec4f,
-    @location(0) @interpolate(flat) face: u32,
-}
-
-@vertex
-fn receiver(@location(0) position: vec3f, @location(1) face: u32) -> Corner {
-    return Corner(view.clip_from_local * vec4f(position, 1.0), face);
-}
-
 @fragment
 fn receiver_face(corner: Corner) -> @location(0) u32 {
     return corner.face;

@@ -18,9 +18,9 @@ macro_rules! shaders {
 
 shaders! {
     /// What a view sees: the G-buffer.
-    SURFACE "surface": "common/view", "surface";
+    SURFACE "surface": "common/view", "common/receiver", "surface";
     /// Receivers that are flush with the ground, shown before it.
-    FLUSH "flush": "common/view", "common/seen", "flush";
+    FLUSH "flush": "common/view", "common/seen", "common/receiver", "flush";
     /// The depth at which each cell is judged.
     JUDGED "judged": "common/view", "common/seen", "judged";
     /// Stencil shadow volumes.

@@ -7,8 +7,7 @@ use wgpu::*;
 /// Receivers' planes lie in rows of this many texels (`PLANES_WIDTH` of `shaders/common/seen.wgsl`).
 pub(crate) const PLANES_WIDTH: usize = 4096;
 
-/// A receiver's corner, as `receiver` of `shaders/surface.wgsl` and `flush_receiver` of `shaders/flush.wgsl` take it:
-/// position and face.
+/// A receiver's corner, as `receiver` of `shaders/common/receiver.wgsl` takes it: position and face.
 #[repr(C)]
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 pub(super) struct Corner([f32; 3], u32);

@@ -63,7 +63,7 @@ impl FlushLayer {
         gpu.queue.write_texture(texture.as_image_copy(), &flush.is_flush, rows, texture.size());
         let stages = Stages {
             module: &gpu.shader("flush", shaders::FLUSH),
-            vertex: "flush_receiver",
+            vertex: "receiver",
             fragment: "flush_face",
             buffers: &[Some(Corner::LAYOUT)],
             target: Some((NUMBER, ColorWrites::ALL)),
