@@ -157,6 +157,8 @@ pub struct MethodRow {
     pub shows_mask: bool,
     /// Whether it blends 32-bit floats, which not every adapter supports.
     pub blends_float32: bool,
+    /// Whether it draws the ground's plane on the processor at each moment between two instants, as that costs little.
+    pub draws_ground_between: bool,
     /// The truth with which `verify` compares it.
     pub against: Truth,
     /// What `verify` requires of it.
@@ -204,6 +206,7 @@ techniques! {
         counts: false,
         shows_mask: false,
         blends_float32: false,
+        draws_ground_between: false,
         against: Truth::Centre,
         promise: Promise::Exact,
         on_patches: Some(Promise::Exact),
@@ -221,6 +224,7 @@ techniques! {
         counts: true,
         shows_mask: false,
         blends_float32: false,
+        draws_ground_between: false,
         against: Truth::Centre,
         promise: Promise::Exact,
         on_patches: None,
@@ -238,6 +242,7 @@ techniques! {
         counts: false,
         shows_mask: false,
         blends_float32: false,
+        draws_ground_between: true,
         against: Truth::Centre,
         promise: Promise::Exact,
         on_patches: None,
@@ -255,6 +260,7 @@ techniques! {
         counts: false,
         shows_mask: false,
         blends_float32: false,
+        draws_ground_between: false,
         against: Truth::Centre,
         promise: Promise::Near,
         on_patches: None,
@@ -272,6 +278,7 @@ techniques! {
         counts: true,
         shows_mask: true,
         blends_float32: false,
+        draws_ground_between: false,
         against: Truth::Centre,
         promise: Promise::ExactButForMap,
         on_patches: None,
@@ -289,6 +296,7 @@ techniques! {
         counts: false,
         shows_mask: false,
         blends_float32: true,
+        draws_ground_between: false,
         against: Truth::Disc,
         promise: Promise::Near,
         on_patches: None,
@@ -306,6 +314,7 @@ techniques! {
         counts: false,
         shows_mask: false,
         blends_float32: false,
+        draws_ground_between: false,
         against: Truth::Disc,
         promise: Promise::Near,
         on_patches: Some(Promise::Exact),
@@ -323,6 +332,7 @@ techniques! {
         counts: false,
         shows_mask: false,
         blends_float32: false,
+        draws_ground_between: false,
         against: Truth::EveryFace,
         promise: Promise::Same,
         on_patches: Some(Promise::Same),
@@ -364,9 +374,10 @@ impl MethodRow {
 
     /// What it searches singly between two instants, on the machine that draws, where it finds changes.
     pub fn searches_singly(&self, engine: Engine, subject: Subject) -> SinglySearched {
-        match (engine, self.method, subject) {
-            (Engine::Gpu, ..) | (_, Method::Projected, Subject::Ground) => SinglySearched::Nothing,
-            (_, Method::Projected, Subject::Top) => SinglySearched::AboveGround,
+        match (engine, subject) {
+            (Engine::Gpu, _) => SinglySearched::Nothing,
+            (_, Subject::Ground) if self.draws_ground_between => SinglySearched::Nothing,
+            (_, Subject::Top) if self.draws_ground_between => SinglySearched::AboveGround,
             _ => SinglySearched::Everything,
         }
     }
