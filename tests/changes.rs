@@ -87,7 +87,7 @@ fn are_those_of_minutes(name: &str, asked: &Overrides) {
     assert!(!draws_whole || off == 0, "{name}: {off} cells are off");
     assert!(off <= often, "{name}: {off} cells are off, of {often} that change often");
     let [found, alone] = secs_off;
-    assert!(found < alone, "{name}: cells are off by {found}/255 s in all, by {alone} without it");
+    assert!(found * 3 < alone * 2, "{name}: cells are off by {found}/255 s in all, by {alone} without it");
 }
 
 #[test]
