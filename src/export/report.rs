@@ -277,7 +277,7 @@ pub fn between_instants(
         return None;
     }
     match drawn.resolution_secs {
-        0 => Some(format!("hours of instants {step} apart, and of nothing between them")),
+        0 => Some(format!("counted at instants {step} apart, and not between them")),
         secs if secs >= track.step_secs => None,
         secs => {
             let found = figure::duration(secs);

@@ -56,7 +56,7 @@ fn it_is_said_with_the_hours() {
         let words = format!("{found}light or shade shorter than {shortest} may be missed");
         assert_eq!(said(&json(more)), (60.into(), words.into()), "{more}");
     }
-    let alone = "hours of instants 1 h apart, and of nothing between them";
+    let alone = "counted at instants 1 h apart, and not between them";
     assert_eq!(said(&json("--resolution step")), (0.into(), alone.into()));
     assert_eq!(said(&json("--resolution 1h")), (3600.into(), Value::Null));
     let soft = json("--technique ray-cast --sun-samples 2");
