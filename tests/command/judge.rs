@@ -104,6 +104,11 @@ fn wrong_use_is_one_line() {
     fails(at, &format!("judge . --rule {BRE} --set loss=both --set loss=either"), 2, &["twice"]);
     fails(at, "judge . --rule au-nsw-adg-4a1", 2, &["`hours`", "--set NAME=VALUE"]);
     fails(at, &format!("judge . --rule {BRE} --csv table.txt"), 2, &["--csv", ".csv"]);
+    // a date that no option sets
+    let dateless = std::fs::read_to_string(at.join("site.toml")).unwrap().replace("date = 2026-03-21", "");
+    std::fs::write(at.join("dateless.toml"), dateless).unwrap();
+    let told = stderr(&gnomon(at, &format!("judge dateless.toml --rule {BRE}")));
+    assert!(told.contains("[study] date") && told.contains("date = 2026-03-21") && !told.contains("--date"), "{told}");
     // all that the rule needs
     fails(at, "judge . --rule nl-tno-light --quiet", 2, &["nl-tno-light needs a window"]);
 }

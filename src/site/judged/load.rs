@@ -8,11 +8,11 @@ use super::request::JudgedSite;
 use super::rooms::add_rooms;
 use super::windows::windows;
 use crate::choice::Receivers;
-use crate::message::{Message, few};
-use crate::site::error::SiteError;
+use crate::message::{Message, few, message};
+use crate::site::error::{FieldLocation, SiteError};
 use crate::site::ground;
 use crate::site::models::Models;
-use crate::site::overrides::Overrides;
+use crate::site::overrides::{Overrides, refuse};
 use crate::site::probe::dates;
 use crate::site::written::WrittenSite;
 use chrono::Datelike as _;
@@ -29,7 +29,7 @@ pub fn load_judged(path: &Path, asked: &Overrides) -> Result<JudgedSite, SiteErr
         as_written.located(|| Models::read(&as_written, |path, options| asked.reading.read(path, options)))?;
     let written = &*written;
     let mut place = written.place(asked)?;
-    let (dates, _) = dates(written, asked)?;
+    let (dates, _) = dates(written, asked).map_err(|error| no_date(error, written))?;
     let year = dates[0].year();
     let level = ground::level(written, asked)?;
     let models = models()?.with_terrain(written)?;
@@ -71,6 +71,16 @@ pub fn load_judged(path: &Path, asked: &Overrides) -> Result<JudgedSite, SiteErr
         year,
         refraction: !asked.no_refraction,
     })
+}
+
+/// The site file alone says which year is judged: no face has an option for it.
+fn no_date(error: SiteError, written: &WrittenSite) -> SiteError {
+    let SiteError::NoStudy { .. } = error else { return error };
+    let at = FieldLocation::Key { file: written.file.clone(), table: "[study]".into(), key: "date".into() };
+    refuse(
+        at,
+        message!["it does not say the year whose days are judged"; "write date = 2026-03-21 under [study] in a site file"],
+    )
 }
 
 /// A note that the glass of judged windows does not cast.
