@@ -16,7 +16,7 @@ use crate::export::{ExportError, report};
 
 /// The colours of the ground, of buildings, of the lowest and of the greatest height, and of lines.
 const GROUND: Rgb = [253, 251, 246];
-const BUILDING: Rgb = [206, 200, 188];
+const BUILDING: Rgb = [227, 223, 214];
 const LOW: Rgb = [252, 233, 196];
 const HIGH: Rgb = [96, 132, 172];
 const LINE: Rgb = [58, 66, 84];
@@ -68,18 +68,17 @@ fn sheet(map: &EnvelopeMap, bands: &[(u64, Vec<Contour>)], step_mm: u64, fit: Fi
     group(&mut block, "ground", |block| {
         block.fill([0.0, 0.0, f64::from(fit.pixels.0), f64::from(fit.pixels.1)], GROUND);
     });
+    let value = |cell: usize| u64::from(map.buildings[cell]);
+    let field = ScalarField { width: map.grid.width, height: map.grid.height, value: &value, open: &|_, _| true };
+    let buildings = contours(&field, 0);
+    // below the heights, whose colours say how high: what stands on the plot is an outline there
+    group(&mut block, "buildings", |block| fill(block, &scale.areas(&buildings), BUILDING, 1.0));
     group(&mut block, "heights", |block| {
         for (at, (_, contours)) in bands.iter().enumerate() {
             fill(block, &scale.areas(contours), tone(at, bands.len()), 1.0);
         }
     });
-    let value = |cell: usize| u64::from(map.buildings[cell]);
-    let field = ScalarField { width: map.grid.width, height: map.grid.height, value: &value, open: &|_, _| true };
-    let buildings = contours(&field, 0);
-    group(&mut block, "buildings", |block| {
-        fill(block, &scale.areas(&buildings), BUILDING, 0.55);
-        scale.lines(&buildings).draw(block, 2.0, INK, "");
-    });
+    group(&mut block, "outlines", |block| scale.lines(&buildings).draw(block, 2.0, INK, ""));
     let lines: Vec<(String, LineGroup)> =
         bands.iter().map(|(from_mm, contours)| (said(*from_mm, step_mm), scale.lines(contours))).collect();
     group(&mut block, "lines", |block| {
@@ -134,11 +133,10 @@ fn panel(map: &EnvelopeMap, bands: &[(u64, Vec<Contour>)], step_mm: u64, [low, h
         sun: Vec::new(),
         legend_head: "Metres above the ground".to_owned(),
         legend,
-        keys: vec![
-            (LINE, "lines of equal height".to_owned()),
-            (ACCENT, "the plot".to_owned()),
-            (INK, "points whose sun is kept (rings)".to_owned()),
-        ],
+        keys: [(LINE, "lines of equal height".to_owned()), (ACCENT, "the plot".to_owned())]
+            .into_iter()
+            .chain((!map.points.is_empty()).then(|| (INK, "points whose sun is kept (rings)".to_owned())))
+            .collect(),
         tz: report::tz_version(place),
         north_up: true,
     }
