@@ -5,8 +5,8 @@ mod rules;
 mod rust_text;
 
 use rules::{
-    KNOWN_TO_ALL, LONG_FUNCTIONS_IN, MAY_KNOW, MOST_LINES, MOST_LINES_OF_A_FUNCTION, RESERVED, SPEAK_OF_COMMANDS,
-    WORDS_OF_A_FACE, WRITES_OPTIONS,
+    DRAWS_ITSELF, FACES, KNOWN_TO_ALL, LONG_FUNCTIONS_IN, MAY_KNOW, MOST_LINES, MOST_LINES_OF_A_FUNCTION, RESERVED,
+    SPEAK_OF_COMMANDS, WORDS_OF_A_FACE, WRITES_OPTIONS,
 };
 use rust_text::TextRanges;
 use std::collections::BTreeMap;
@@ -36,6 +36,10 @@ fn faults(path: &Path, source: &str) -> Vec<String> {
             }
         }
     }
+    if FACES.contains(&module) && path != Path::new(DRAWS_ITSELF) {
+        let found = code.match_indices("Method::").filter(|(offset, word)| is_technique(&code[offset + word.len()..]));
+        faults.extend(found.map(|(offset, _)| format!("{}: a technique in {module}: ask its row", at(offset))));
+    }
     if !WRITES_OPTIONS.contains(&module) {
         let options = code.match_indices("--").filter(|(offset, _)| is_option(&code[*offset..]));
         faults.extend(options.map(|(offset, _)| format!("{}: an option in {module}: name a field", at(offset))));
@@ -52,6 +56,11 @@ fn faults(path: &Path, source: &str) -> Vec<String> {
 fn is_option(text: &str) -> bool {
     let is_name = |next: char| next.is_ascii_lowercase() || next == '{';
     text.trim_start_matches('-').starts_with(is_name) && !text.starts_with("---")
+}
+
+/// Whether a text that follows `Method::` begins with the name of a technique; `auto` stands for any.
+fn is_technique(text: &str) -> bool {
+    text.starts_with(|next: char| next.is_ascii_uppercase()) && !text.starts_with("Auto") && !text.starts_with("WORDS")
 }
 
 /// Where string literals have words of one face.
@@ -282,6 +291,8 @@ fn checker_finds_each_kind_of_fault() {
         ("desktop/view.rs", "let casts = drawn.technique == \"ray-cast\";"),
         ("desktop/view.rs", "let casts = drawn.technique == \"stencil\";"),
         ("export/report.rs", "let casts = drawn.technique == \"hybrid\";"),
+        ("desktop/view.rs", "let casts = method == Method::RayCast;"),
+        ("cli/technique.rs", "let row = Method::Hybrid.row();"),
         ("desktop/work.rs", "use crate::cli::one_line;"),
         ("cli/mod.rs", "use crate::desktop::open;"),
         ("export/report.rs", "use crate::deliver::Sink;"),
@@ -301,6 +312,9 @@ fn checker_finds_each_kind_of_fault() {
         ("cli/output.rs", "let note = \"the same command goes on\";"),
         ("export/glb.rs", "let generator = \"gnomon \"; // of the command"),
         ("formats/refused.rs", "let way_out = \"with the command MESHSMOOTH\";"),
+        ("desktop/view.rs", "let method = Method::Auto; // Method::RayCast"),
+        ("desktop/stage/plain.rs", "let technique = Method::RayCast;"),
+        ("study/chooser.rs", "let method = Method::RayCast;"),
         ("shadow/stencil.rs", "let pass = Some(\"stencil\");"),
         ("mesh/weld.rs", "fn of<'a>(text: &'a str) {} /* crate::site */ // crate::sun"),
     ];

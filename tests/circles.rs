@@ -10,9 +10,6 @@ use crate::architecture::{files, without_comments};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// The modules, and folders in modules, that do not follow the rule yet.
-const NOT_HELD: &[&str] = &[];
-
 /// The folders of `desktop` as layers: each knows itself and those before it, and no file beside the folders.
 const LAYERS: &[&str] = &["state", "results", "work", "stage", "parts", "app"];
 
@@ -204,12 +201,9 @@ fn reached<'a>(uses: &'a BTreeMap<&Module, BTreeMap<Module, String>>, from: &Mod
 }
 
 /// The dependencies in a circle, each with the path that causes it.
-fn circles(files: &[(PathBuf, String)], not_held: &[&str]) -> Vec<String> {
+fn circles(files: &[(PathBuf, String)]) -> Vec<String> {
     let sources = Sources::read(files);
-    let is_held = |module: &Module| !not_held.iter().any(|room| Path::new(&module.join("/")).starts_with(room));
-    let mut uses = sources.uses();
-    uses.retain(|module, _| is_held(module));
-    uses.values_mut().for_each(|used| used.retain(|module, _| is_held(module)));
+    let uses = sources.uses();
     let mut found = Vec::new();
     for (module, used) in &uses {
         let back = used.iter().filter(|(used, _)| reached(&uses, used).contains(*module));
@@ -238,7 +232,7 @@ fn no_room_has_a_circle_of_files() {
     let sources = files("src", "rs");
     let arrows: usize = Sources::read(&sources).uses().values().map(BTreeMap::len).sum();
     assert!(arrows > 2 * sources.len(), "too few uses were found");
-    let found = circles(&sources, NOT_HELD);
+    let found = circles(&sources);
     assert!(found.is_empty(), "move what both use into a file below them:\n{}", found.join("\n"));
 }
 
@@ -290,8 +284,7 @@ fn finder_of_circles_finds_them() {
         file("mesh/mod.rs", "mod weld;\nuse weld::weld;\npub struct Part;\nfn build() { weld() }"),
         file("mesh/weld.rs", "use super::Part;\npub(super) fn weld() {}"),
     ];
-    assert_eq!(circles(&parent, &[]), ["mesh uses mesh/weld: weld::weld", "mesh/weld uses mesh: super::Part"]);
-    assert_eq!(circles(&parent, &["mesh/weld"]), [""; 0]);
+    assert_eq!(circles(&parent), ["mesh uses mesh/weld: weld::weld", "mesh/weld uses mesh: super::Part"]);
     let longer = [
         lib(),
         file("mesh/mod.rs", "mod a;\nmod b;\nmod c;\npub use a::{A, other as O};\npub(crate) use self::c::C;"),
@@ -299,21 +292,21 @@ fn finder_of_circles_finds_them() {
         file("mesh/b.rs", "use crate::{\n    mesh::{C, a as _},\n};\npub fn b() -> C { C }"),
         file("mesh/c.rs", "// A\npub struct C;\nimpl C { fn of() { super::O() } }"),
     ];
-    let found = circles(&longer, &[]);
+    let found = circles(&longer);
     assert_eq!(
         found,
         ["mesh/a uses mesh/b: super::b::b", "mesh/b uses mesh/c: crate::mesh::C", "mesh/c uses mesh/a: super::O"]
     );
     let used_by_its_parent = file("mesh/mod.rs", "mod a;\npub use a::A;\npub struct B;\nfn of(a: A) {}");
     let child = || file("mesh/a.rs", "pub struct A(super::B);");
-    assert_eq!(circles(&[lib(), used_by_its_parent, child()], &[]).len(), 2);
+    assert_eq!(circles(&[lib(), used_by_its_parent, child()]).len(), 2);
     let re_exported = file("mesh/mod.rs", "mod a;\npub use a::A;\npub struct B;");
-    assert_eq!(circles(&[lib(), re_exported, child()], &[]), [""; 0]);
+    assert_eq!(circles(&[lib(), re_exported, child()]), [""; 0]);
     let one_way = [
         lib(),
         file("mesh/mod.rs", "//! Of [`a::A`].\nmod a;\nmod b;\npub use a::A;"),
         file("mesh/a.rs", "pub struct A; // super::b::B"),
         file("mesh/b.rs", "use super::A;\nuse super::a;\npub struct B(A);"),
     ];
-    assert_eq!(circles(&one_way, &[]), [""; 0]);
+    assert_eq!(circles(&one_way), [""; 0]);
 }

@@ -153,6 +153,8 @@ pub struct MethodRow {
     pub defaults: Settings,
     /// Whether it counts shadow volumes, so that statistics of counting exist.
     pub counts: bool,
+    /// Whether it can also draw the volumes themselves and the silhouette that they start from; one technique does.
+    pub draws_volumes: bool,
     /// Whether its map decides some cells and volumes the others, so that a diagram of this can be shown.
     pub shows_mask: bool,
     /// Whether it blends 32-bit floats, which not every adapter supports.
@@ -204,6 +206,7 @@ techniques! {
         settings: &[],
         defaults: Settings::NONE,
         counts: false,
+        draws_volumes: false,
         shows_mask: false,
         blends_float32: false,
         draws_ground_between: false,
@@ -222,6 +225,7 @@ techniques! {
         settings: &[],
         defaults: Settings::NONE,
         counts: true,
+        draws_volumes: true,
         shows_mask: false,
         blends_float32: false,
         draws_ground_between: false,
@@ -240,6 +244,7 @@ techniques! {
         settings: &[],
         defaults: Settings::NONE,
         counts: false,
+        draws_volumes: false,
         shows_mask: false,
         blends_float32: false,
         draws_ground_between: true,
@@ -258,6 +263,7 @@ techniques! {
         settings: &[Setting::MapSize, Setting::Filter],
         defaults: Settings { map_size: Some(MAP_SIZE), filter: Some(Filter::FastTwoByTwo), ..Settings::NONE },
         counts: false,
+        draws_volumes: false,
         shows_mask: false,
         blends_float32: false,
         draws_ground_between: false,
@@ -276,6 +282,7 @@ techniques! {
         settings: &[Setting::MapSize],
         defaults: Settings { map_size: Some(MAP_SIZE), ..Settings::NONE },
         counts: true,
+        draws_volumes: false,
         shows_mask: true,
         blends_float32: false,
         draws_ground_between: false,
@@ -294,6 +301,7 @@ techniques! {
         settings: &[Setting::MapSize, Setting::SmoothieWidth],
         defaults: Settings { map_size: Some(MAP_SIZE), ..Settings::NONE },
         counts: false,
+        draws_volumes: false,
         shows_mask: false,
         blends_float32: true,
         draws_ground_between: false,
@@ -312,6 +320,7 @@ techniques! {
         settings: &[Setting::SunSamples],
         defaults: Settings { sun_samples: Some(64), ..Settings::NONE },
         counts: false,
+        draws_volumes: false,
         shows_mask: false,
         blends_float32: false,
         draws_ground_between: false,
@@ -330,6 +339,7 @@ techniques! {
         settings: &[Setting::SunSamples],
         defaults: Settings::NONE,
         counts: false,
+        draws_volumes: false,
         shows_mask: false,
         blends_float32: false,
         draws_ground_between: false,
@@ -350,6 +360,16 @@ impl Method {
     /// The word of the technique.
     pub fn word(self) -> &'static str {
         self.row().word
+    }
+
+    /// The technique that also draws volumes and silhouette.
+    pub(crate) fn of_volumes() -> Option<Method> {
+        TABLE.iter().find(|row| row.draws_volumes).map(|row| row.method)
+    }
+
+    /// The technique that draws the sun as a point or, on request, as a disc.
+    pub(crate) fn of_discs() -> Option<Method> {
+        TABLE.iter().find(|row| row.offers_disc()).map(|row| row.method)
     }
 }
 
@@ -380,6 +400,11 @@ impl MethodRow {
             (_, Subject::Top) if self.draws_ground_between => SinglySearched::AboveGround,
             _ => SinglySearched::Everything,
         }
+    }
+
+    /// Whether the sun is a point for it unless a disc is requested.
+    pub(crate) fn offers_disc(&self) -> bool {
+        self.uses(Setting::SunSamples) && self.defaults.sun_samples.is_none()
     }
 
     /// Whether it uses an option.

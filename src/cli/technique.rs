@@ -64,16 +64,16 @@ fn with(setting: Setting, what: &str) -> String {
 }
 
 fn filters() -> String {
-    let default = Method::ShadowMap.row().defaults.filter.map_or("", Filter::word);
+    let default = TABLE.iter().find_map(|row| row.defaults.filter).map_or("", Filter::word);
     format!("filter of the comparisons: {} [default: {default}]", one_of(Filter::WORDS))
 }
 
 fn samples() -> String {
-    let MethodRow { word, defaults, .. } = Method::SoftTexture.row();
-    let points = defaults.sun_samples.unwrap_or_default();
-    format!(
-        "number of points of the sun's disc, 1 to 1024 [default: its centre; with {word} in a camera's picture {points}]"
-    )
+    let of_row = |row: &MethodRow| {
+        row.defaults.sun_samples.map(|points| format!("; with {} in a camera's picture {points}", row.word))
+    };
+    let others: String = TABLE.iter().filter_map(of_row).collect();
+    format!("number of points of the sun's disc, 1 to 1024 [default: its centre{others}]")
 }
 
 /// The help of `--stats`.

@@ -95,19 +95,21 @@ fn tellers(field: Field) -> Vec<&'static str> {
     TABLE.iter().filter(tells).map(|row| row.word).collect()
 }
 
-/// The stencil, for its volumes and silhouettes; a software adapter will do.
-pub(super) fn stencil_alone(gpu: Option<&Arc<Gpu>>, site: &Site, view: &View) -> Result<Machine, StudyError> {
+/// The technique that draws volumes and silhouette; a software adapter will do.
+pub(super) fn of_volumes(gpu: Option<&Arc<Gpu>>, site: &Site, view: &View) -> Result<Machine, StudyError> {
     not_side(view, Field::Volumes)?;
-    if !matches!(site.method, Method::Auto | Method::Stencil) || site.engine == Engine::Cpu {
+    let allowed = |method: &Method| matches!(site.method, Method::Auto) || site.method == *method;
+    let Some(method) = Method::of_volumes().filter(allowed).filter(|_| site.engine != Engine::Cpu) else {
+        let word = Method::of_volumes().map_or("", Method::word);
         let message = message![
-            "only the technique stencil on the gpu draws volumes and silhouette";
-            "take ", (Field::Technique, Method::Stencil.word()), " without ", (Field::Engine, "cpu"), ", or leave them out"
+            format!("only the technique {word} on the gpu draws volumes and silhouette");
+            "take ", (Field::Technique, word), " without ", (Field::Engine, "cpu"), ", or leave them out"
         ];
         return Err(StudyError::Conflict { field: Field::Volumes, message });
-    }
-    Method::Stencil.row().check(site.finder, &site.settings, site.engine, subject_of(site, view))?;
+    };
+    method.row().check(site.finder, &site.settings, site.engine, subject_of(site, view))?;
     let gpu = opened(gpu).map_err(|error| StudyError::NoVolumes(error.why()))?;
-    Ok(Machine::on(gpu, Method::Stencil, site))
+    Ok(Machine::on(gpu, method, site))
 }
 
 /// Refuses a side: volumes are drawn and counted only in the plan and in perspective.

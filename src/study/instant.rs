@@ -1,7 +1,7 @@
 //! The shadows of one instant, in the plan, from a side or in a camera's picture.
 
 use super::again::persist;
-use super::chooser::{choose, counting, not_patches, stencil_alone};
+use super::chooser::{choose, counting, not_patches, of_volumes};
 use super::{Event, InstantOutcome, InstantWants, NOTHING_COUNTED, OnEvent, SiteView, Stopwatch, StudyError};
 use super::{judged, night, note_site, subject_of, tell, tiles};
 use crate::gpu::Gpu;
@@ -42,7 +42,7 @@ fn once(
     let mut watch = Stopwatch::start();
     let instant = site.track.instants.first().ok_or(StudyError::NoInstant)?;
     let machine = match (shows_volumes(wants), wants.counted) {
-        (true, _) => stencil_alone(gpu, site, &view)?,
+        (true, _) => of_volumes(gpu, site, &view)?,
         (false, Some(counted)) => counting(gpu, site, &view, counted.field())?,
         (false, None) => choose(gpu, site, &view, on_event)?,
     };

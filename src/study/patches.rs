@@ -245,10 +245,8 @@ pub(super) fn way_of(method: Method) -> Result<Choice, Misfit> {
         Method::Auto => Ok(Choice::Auto),
         Method::SoftTexture => Ok(Choice::Texture),
         Method::RayCast => Ok(Choice::Rays),
-        // none of these judges patches; a technique that does has a line above
-        Method::Stencil | Method::Projected | Method::ShadowMap | Method::Hybrid | Method::Smoothie => {
-            Err(Misfit::Technique { method, subject: Subject::Patches })
-        }
+        // a technique that judges patches has a line above
+        method => Err(Misfit::Technique { method, subject: Subject::Patches }),
     }
 }
 

@@ -244,7 +244,7 @@ fn shadows(app: &mut App, ui: &mut Ui) {
     if !technique::draws(shown.method, stand) {
         ui.weak("It does not draw this view: auto does.");
     }
-    if technique::casts_rays(shown.method, software) {
+    if technique::of_disc(shown.method, software).is_some() {
         ui.checkbox(&mut shown.disc, "The sun as a disc: soft edges");
     }
     if technique::counts(shown.method) {

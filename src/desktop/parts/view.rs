@@ -11,7 +11,7 @@ use crate::desktop::state::eye::{Eye, Stand};
 use crate::desktop::state::pick::{PickedPoint, dome, under};
 use crate::desktop::state::project::Project;
 use crate::desktop::state::settings::ShadowSettings;
-use crate::desktop::state::technique::{casts_rays, counts, draws};
+use crate::desktop::state::technique::{counts, draws, of_disc};
 use crate::picture::Style;
 use crate::study::live::{FARTHEST, LiveMethod};
 use crate::view::View;
@@ -230,10 +230,10 @@ impl Viewer {
         let stand = self.eye.stand;
         let is_perspective = stand == Stand::Perspective;
         let method = if draws(choice.method, stand) { choice.method } else { Method::Auto };
-        let disc = choice.disc && casts_rays(method, software);
+        let disc = of_disc(method, software).filter(|_| choice.disc);
         let way = LiveMethod {
-            method: if disc { Method::RayCast } else { method },
-            settings: Settings { sun_samples: disc.then_some(DISC_SAMPLES), ..Settings::default() },
+            method: disc.unwrap_or(method),
+            settings: Settings { sun_samples: disc.map(|_| DISC_SAMPLES), ..Settings::default() },
         };
         let style = Style {
             focus_m: self.eye.camera((1, 1)).target.distance(self.eye.camera((1, 1)).eye),

@@ -13,9 +13,11 @@ pub(in crate::desktop) fn draws(method: Method, stand: Stand) -> bool {
     method.row().draws(Engine::Auto, subject)
 }
 
-/// Whether rays are cast, so that the sun can be a disc.
-pub(in crate::desktop) fn casts_rays(method: Method, software: bool) -> bool {
-    method == Method::RayCast || (method == Method::Auto && software)
+/// The technique that draws the sun as a disc, if the chosen one can. On a software adapter `auto` chooses it for the
+/// window's pictures.
+pub(in crate::desktop) fn of_disc(method: Method, software: bool) -> Option<Method> {
+    let is_chosen = |of_discs: &Method| method == *of_discs || method == Method::Auto && software;
+    Method::of_discs().filter(is_chosen)
 }
 
 /// Whether a technique counts volumes.

@@ -95,12 +95,9 @@ pub(in crate::desktop) fn drawing(
     let shown = settings.shown;
     Work::start(context, move |on_event| {
         let is_perspective = eye.stand == Stand::Perspective;
-        let method = match shown.method {
-            // only the stencil draws volumes and silhouette
-            _ if (shown.volumes || shown.silhouette) && is_perspective => Method::Stencil,
-            method if technique::draws(method, eye.stand) => method,
-            _ => Method::Auto,
-        };
+        let shows_volumes = (shown.volumes || shown.silhouette) && is_perspective;
+        let chosen = Some(shown.method).filter(|method| technique::draws(*method, eye.stand));
+        let method = Method::of_volumes().filter(|_| shows_volumes).or(chosen).unwrap_or_default();
         // the region of this instant's shadows
         let overrides = Overrides { instant: Some(time), technique: Some(method), reading, ..Overrides::default() };
         let site = site_of(&written, &overrides, models)?;
