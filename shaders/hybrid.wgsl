@@ -4,8 +4,8 @@
 // over one texel it is no plane any more.
 const STEEPEST: f32 = 50.0;
 
-// How many of the four texels from `first` on lie before the cell's own plane. A caster that stands on the
-// plane is told from it however near. Where that is too strict, texels disagree, and the volumes decide.
+// How many of the four texels from `first` on lie before the cell's own plane. Even a caster that stands on the
+// plane lies before it. Where that is too strict, texels disagree, and the volumes decide.
 fn before_plane_of_four(cell: Cell, first: vec2i) -> u32 {
     let rounding = rounding(cell);
     var count = 0u;

@@ -100,7 +100,7 @@ struct LookUniforms {
 @group(2) @binding(10) var atlas: texture_2d_array<f32>;
 @group(2) @binding(11) var<uniform> look: LookUniforms;
 
-// What a pixel sees, from its face's plane: depths are not needed, which rays do not tell.
+// What a pixel sees, from its face's plane: the depth is not needed, which rays do not return.
 fn point_on(face: u32, pixel: vec2f) -> vec3f {
     var plane = vec4f(0.0, 0.0, 1.0, -view.ground_z);
     if face != GROUND {
@@ -129,7 +129,7 @@ fn sky(along: vec3f) -> vec3f {
     return mix(look.horizon, look.zenith, sqrt(min(height * look.sky_rise, 1.0)) * look.sky_most);
 }
 
-// The brightest tenth is pressed together instead of cut off.
+// Compresses the brightest tenth instead of cutting it off.
 fn display(colour: vec3f) -> vec3f {
     let over = colour - look.pressed_above;
     let pressed = look.pressed_above + look.pressed_room * (1.0 - exp(-over / look.pressed_room));

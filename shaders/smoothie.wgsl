@@ -21,7 +21,7 @@ fn metric(at: vec2f) -> vec2f {
     return vec2f(at.x, -at.y) * map.texel;
 }
 
-// What is so thin in the map's plane is told from nothing.
+// What is thinner than this in the map's plane counts as nothing.
 fn hair() -> f32 {
     return 0.05 * max(map.texel.x, map.texel.y);
 }

@@ -93,7 +93,7 @@ struct Counted {
 fn counted_in_plan(wall: Wall) -> Counted {
     let depth = wall.position.z + view.depth_scale * wall.sunk;
     let height = wall.sunward.z - view.lowest_z;
-    // written so that what is no number is narrow and steep
+    // written so that NaN counts as narrow and steep
     let wide = fwidth(wall.fallen) <= 64.0 || fwidth(depth) <= 64.0 * height * view.depth_scale;
     if !wide && height > 0.0 {
         return Counted(max(depth_in_plan(height_of_sliver(wall)), above_lowest()), vec4f(0.0));

@@ -6,7 +6,9 @@
 //! ```
 //!
 //! The whole flow is one function, [`study::run`]. The documented items are for programs that use Gnomon as a library,
-//! and are stable within a major version; all other public items serve the program's own parts and tests.
+//! and are stable within a major version: a minor one may add variants to enums that are `#[non_exhaustive]`, and fields
+//! to requests, which have a default (`..Overrides::default()`). All other public items serve the program's own parts
+//! and tests.
 //!
 //! # Three doors
 //!

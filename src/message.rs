@@ -12,6 +12,7 @@ macro_rules! fields {
     ($($(#[$doc:meta])* $field:ident => $name:literal,)+) => {
         /// The fields of a request.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+        #[non_exhaustive]
         pub enum Field { $($(#[$doc])* $field,)+ }
 
         impl Field {
@@ -166,6 +167,7 @@ impl Default for &dyn Words {
 
 /// A piece of a message.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum Piece {
     /// Text as it is.
     Text(Cow<'static, str>),

@@ -106,6 +106,8 @@ const STUMBLES: &[(&str, &str)] = &[
     ("hang together ", "are connected"),
     ("hangs together ", "is connected"),
     ("seed 0", "the paper's author, title and section"),
+    ("told from ", "lies before, or differs from"),
+    ("is no number ", "is NaN"),
 ];
 
 /// The same only in documents, including the changelog: readers of code know who "is told" means.

@@ -237,7 +237,8 @@ fn checker_sees_what_is_shown() {
 /// What a face asks is typed: text is parsed by the face that takes it.
 #[test]
 fn what_is_asked_is_typed() {
-    let fields = std::fs::read_to_string("src/site/overrides.rs").expect("the source");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/site/overrides.rs");
+    let fields = std::fs::read_to_string(path).expect("the source");
     let of_text: Vec<&str> = fields.lines().filter(|line| line.contains("Option<String>")).collect();
     assert!(fields.contains("pub struct Overrides") && of_text.is_empty(), "{of_text:?}");
 }

@@ -6,6 +6,7 @@ use crate::message::{Field, Message, Piece, Worded, pieces, plain_display};
 
 /// Two choices that do not fit together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Misfit {
     /// The technique does not draw that subject on any machine.
     Technique {
@@ -125,9 +126,9 @@ fn either(row: &MethodRow) -> &'static [Subject] {
 
 plain_display!(Misfit);
 
-impl Worded for Misfit {
-    /// The message, with what the technique does draw.
-    fn message(&self) -> Message {
+impl Misfit {
+    /// What is wrong and what can be done, without the field: with what the technique does draw.
+    pub(crate) fn reason(&self) -> Message {
         let (what, mut hint) = self.what_and_hint();
         if let Some((method, subjects)) = self.draws_instead() {
             let mut instead = pieces![format!("; {method} can be used with ")];
@@ -142,7 +143,13 @@ impl Worded for Misfit {
             // a face without such a field has other ways to choose the subject
             hint.push(Piece::Where(Field::Receivers, instead));
         }
-        Message { what: pieces![what], hint }.of(self.field().into())
+        Message { what: pieces![what], hint }
+    }
+}
+
+impl Worded for Misfit {
+    fn message(&self) -> Message {
+        self.reason().of(self.field().into())
     }
 }
 

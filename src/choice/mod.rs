@@ -67,7 +67,7 @@ pub enum Engine {
     Cpu,
 }
 
-/// The settings of single techniques. Settings that are absent have their default from [`MethodRow::defaults`].
+/// The settings of single techniques. Settings that are absent have the default of the technique.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Settings {
     /// The number of texels along a shadow map's side.

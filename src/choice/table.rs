@@ -174,6 +174,7 @@ macro_rules! techniques {
     ($($(#[$of:meta])+ $name:ident: $word:literal, { $($field:ident: $value:expr,)+ })+) => {
         /// The technique that finds shadows.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+        #[non_exhaustive]
         pub enum Method { $($(#[$of])+ $name),+ }
 
         impl Method {

@@ -42,8 +42,11 @@ pub fn volumes(
     note(open.note(), on_event)?;
     study::note_site(site, on_event)?;
     let found = solids(&site.mesh, &site.casts, instant.to_sun, site.ground.level)?;
+    if found.solids.is_empty() {
+        return Err(no_caster(site).into());
+    }
     tell(on_event, Event::Stage("volumes"))?;
-    let plane = (site.ground.kind == GroundKind::Terrain).then(|| note_plane(site.ground.level));
+    let plane = (site.ground.kind == GroundKind::Terrain).then(|| site.worded(note_plane(site.ground.level)));
     study::note_models(plane.as_slice(), on_event)?;
     let mut notes: Vec<Message> = site.notes.iter().cloned().chain(plane).collect();
     note_extent(&found, instant, &mut |event| {
@@ -65,6 +68,16 @@ pub fn volumes(
     tell(on_event, Event::Stage("model"))?;
     let written = open.write(vec![(name.to_owned(), bytes)])?;
     Ok(VolumesAnswer { written, report: encode::json(&volumes, name)?, summary: encode::summary(&volumes) })
+}
+
+/// That there is no volume to write.
+fn no_caster(site: &Site) -> StudyError {
+    let message = message![
+        "nothing above the ground casts a shadow";
+        "see ", setting("[ground]", "level", "`level` in [ground]"), " and ",
+        setting("[[model]]", "casts", "`casts` under [[model]]")
+    ];
+    StudyError::NoVolume(site.worded(message))
 }
 
 /// A note that the volumes end at a plane, above or below the terrain.

@@ -15,7 +15,7 @@ const MOST: usize = 12;
 pub(super) enum MostLines {
     /// A few, with a hint at the field that has all.
     OrSee(Field),
-    /// All.
+    /// Every one, for a request of full lists.
     All,
 }
 

@@ -65,7 +65,7 @@ const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 pub fn glb(volumes: &Volumes<'_>) -> Result<Vec<u8>, ExportError> {
     // The format forbids empty lists, and an empty file would be of no use.
     if volumes.solids.is_empty() {
-        return Err(refused("nothing above the ground casts a shadow; check `level` of the ground, and `casts`"));
+        return Err(refused("there is no volume"));
     }
     let size = |solid: &Solid| 12 * (solid.vertices.len() as u64 + solid.triangles.len() as u64);
     let data: u64 = volumes.solids.iter().map(size).sum();
@@ -73,9 +73,7 @@ pub fn glb(volumes: &Volumes<'_>) -> Result<Vec<u8>, ExportError> {
     let total = 12 + 8 + document.len().next_multiple_of(4) as u64 + 8 + data;
     let Ok(length) = u32::try_from(total) else {
         let gib = total as f64 / f64::from(1 << 30);
-        return Err(refused(format!(
-            "it would be {gib:.1} GiB, and a GLB holds at most 4; let fewer parts cast with `casts`"
-        )));
+        return Err(refused(format!("it would be {gib:.1} GiB, and a GLB holds at most 4; let fewer components cast")));
     };
     let mut bytes = Vec::with_capacity(data as usize);
     for solid in volumes.solids {

@@ -86,6 +86,7 @@ impl ModelReader {
     ///
     /// # Errors
     /// As [`ModelReader::read`]; also if no executable is set.
+    #[cfg(feature = "test-hooks")]
     pub fn read_apart(&self, path: &Path, options: &ReadOptions) -> Result<Model, ModelError> {
         let read = || match &self.program {
             Some(program) => child::read(program, self.limits, &self.given_up, path, options),

@@ -27,6 +27,7 @@ pub struct Gpu {
 
 /// Why the graphics adapter could not do its work.
 #[derive(Clone, Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum GpuError {
     /// The system has no adapter.
     NoAdapter,

@@ -5,6 +5,7 @@ use crate::message::kilometres;
 
 /// Why parts cannot become a mesh.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum MeshError {
     /// Too many faces: they are counted in 32 bits, one of which is a face's direction along an edge.
     #[error("the models have {0} triangles, more than the {max} that Gnomon supports; leave parts out", max = Mesh::MOST_FACES)]

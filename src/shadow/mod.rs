@@ -188,6 +188,7 @@ pub trait Technique {
 
 /// Why a mask could not be drawn.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ShadowError {
     /// The raster is too large for the adapter.
     TooLarge {

@@ -31,7 +31,7 @@ impl FieldLocation {
     }
 
     /// A message about it; for a site file, fields are worded as keys.
-    fn tells(&self, message: Message) -> Message {
+    pub(crate) fn tells(&self, message: Message) -> Message {
         match self {
             FieldLocation::Key { .. } => message.of_keys().of(self.piece()),
             FieldLocation::Field(_) => message.of(self.piece()),
@@ -41,6 +41,7 @@ impl FieldLocation {
 
 /// Why a site could not be loaded, in one line.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum SiteError {
     /// The path cannot be read as a file.
     Unreadable {

@@ -2,6 +2,7 @@
 
 use super::error::{FieldLocation, SiteError};
 use super::extent::{Bounds, with_shadows};
+use super::given_by_file::GivenByFile;
 use super::load::VIEW_CUT;
 use super::overrides::refuse;
 use super::{Ground, Site, camera, ground, notes, plan};
@@ -48,6 +49,7 @@ impl Site {
             mesh,
             notes,
             words: &PlainWords,
+            by_file: GivenByFile::default(),
             likenesses: Vec::new(),
             casts: all.clone(),
             receives: all,

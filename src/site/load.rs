@@ -3,6 +3,7 @@
 use super::contents::ModelContents;
 use super::error::{FieldLocation, SiteError};
 use super::extent::with_shadows;
+use super::given_by_file::GivenByFile;
 use super::model_place::{ModelReference, elevation_note};
 use super::models::{Models, name, read_elevation};
 use super::overrides::{Overrides, refuse};
@@ -209,6 +210,7 @@ impl Site {
             mesh,
             notes,
             words: asked.words,
+            by_file: GivenByFile::of(written, asked, method),
             likenesses,
             casts,
             receives,

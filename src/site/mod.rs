@@ -15,6 +15,7 @@ mod extent;
 #[doc(hidden)]
 pub mod file;
 mod georeference;
+mod given_by_file;
 mod ground;
 mod in_memory;
 mod inputs;
@@ -56,6 +57,8 @@ mod written;
 #[doc(hidden)]
 pub use contents::{ModelContents, NameGroup};
 pub use error::{FieldLocation, SiteError};
+#[doc(hidden)]
+pub use given_by_file::GivenByFile;
 #[doc(hidden)]
 pub use ground::metres;
 pub use ground::{Ground, GroundFrom, GroundKind};
@@ -104,6 +107,9 @@ pub struct Site {
     pub notes: Vec<Message>,
     /// The face's words for the fields of a request, for notes that go into files.
     pub words: &'static dyn Words,
+    /// What was given by a site file, if there is one.
+    #[doc(hidden)]
+    pub by_file: GivenByFile,
     /// Models that look as if they had a different unit or up axis, with the keys that would correct them.
     pub likenesses: Vec<Likeness>,
     /// For each component, whether it casts.

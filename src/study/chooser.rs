@@ -27,7 +27,7 @@ pub(super) fn choose(
 ) -> Result<Machine, StudyError> {
     let subject = subject_of(site, view);
     let method = if site.method == Method::Auto { automatic(site, subject) } else { site.method };
-    let engine = method.row().fit(site.engine, subject)?;
+    let engine = method.row().fit(site.engine, subject).map_err(|misfit| StudyError::of_site(site, misfit))?;
     method.row().check(site.finder, &site.settings, site.engine, subject)?;
     if method != Method::Auto {
         return Ok(match engine {

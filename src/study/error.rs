@@ -2,14 +2,16 @@
 
 use crate::choice::Misfit;
 use crate::gpu::GpuError;
-use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display, setting};
+use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display};
 use crate::rules::{RuleError, RuleNeed};
 use crate::shadow::ShadowError;
+use crate::site::{FieldLocation, Site};
 use crate::sun::{SunError, Zone};
 use chrono::DateTime;
 
 /// Why a study fails, in one line.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum StudyError {
     /// Two choices that exclude each other.
     Conflict {
@@ -20,6 +22,13 @@ pub enum StudyError {
     },
     /// Technique, engine and settings that do not fit each other or the subject.
     Misfit(#[from] Misfit),
+    /// The technique does not fit, which the site file names.
+    FileMisfit {
+        /// What does not fit.
+        misfit: Misfit,
+        /// Where the file names it.
+        at: FieldLocation,
+    },
     /// The plan needs more memory than the budget allows.
     LittleMemory {
         /// What it may take, bytes.
@@ -44,7 +53,9 @@ pub enum StudyError {
         most_secs: u32,
     },
     /// No component that receives has an area.
-    NoPatch,
+    NoPatch(Message),
+    /// No component casts a volume.
+    NoVolume(Message),
     /// The track has no instant.
     NoInstant,
     /// A list of a site made in memory does not have one entry for each component.
@@ -143,6 +154,7 @@ impl Worded for StudyError {
         match self {
             StudyError::Conflict { field, message } => message.clone().of((*field).into()),
             StudyError::Misfit(misfit) => misfit.message(),
+            StudyError::FileMisfit { misfit, at } => at.tells(misfit.reason()),
             StudyError::LittleMemory { asked, least, width } => message![
                 Field::Memory,
                 format!(": {} is too little for rows of {width} cells", amount(*asked));
@@ -162,9 +174,7 @@ impl Worded for StudyError {
                 );
                 "ask for fewer days or a shorter window"
             ],
-            StudyError::NoPatch => {
-                message!["no component that receives has a surface"; "see ", setting("[[model]]", "receives", "`receives` in the site file")]
-            }
+            StudyError::NoPatch(message) | StudyError::NoVolume(message) => message.clone(),
             StudyError::NoSunToSee { time, below_deg } => no_sun_to_see(time, *below_deg),
             StudyError::NoEnvelope { rule, why } => no_envelope(rule, why),
             StudyError::TooManyRays { rays, most } => too_many_rays(*rays, *most),
@@ -218,13 +228,22 @@ fn no_device(why: &str) -> Message {
 }
 
 impl StudyError {
+    /// What does not fit of a site's choices.
+    pub(super) fn of_site(site: &Site, misfit: Misfit) -> StudyError {
+        match site.technique_at(&misfit) {
+            Some(at) => StudyError::FileMisfit { misfit, at: at.clone() },
+            None => misfit.into(),
+        }
+    }
+
     /// Whether the command line was wrong (exit status 2).
     pub fn is_wrong_use(&self) -> bool {
-        use StudyError::{Conflict, LittleMemory, Misfit, NoEnvelope, Rule, TooManyCells, TooManyRays};
+        use StudyError::{Conflict, FileMisfit, LittleMemory, Misfit, NoEnvelope, Rule, TooManyCells, TooManyRays};
         matches!(
             self,
             Conflict { .. }
                 | Misfit(_)
+                | FileMisfit { .. }
                 | LittleMemory { .. }
                 | TooManyCells { .. }
                 | Rule(_)

@@ -14,6 +14,7 @@ use std::sync::Arc;
 
 /// Something that happens while a study runs.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub enum Event<'a> {
     /// Something that the user should know about the result.
     Note(Message),

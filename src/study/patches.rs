@@ -85,7 +85,7 @@ pub(crate) fn patches_kept(
     let mut patches = Patches::of(&site.mesh, &site.receives, cell, MOST_TEXELS);
     patches.leave_out_shared(&site.mesh, &site.casts, &site.receives);
     let patches = Arc::new(patches);
-    note_patches(&patches, hear)?;
+    note_patches(site, &patches, hear)?;
     note_instants_alone(site, resolution_secs(site), hear)?;
     let outcome = persist(site, true, hear, &mut |site, gpu, on_event| {
         let painter = painter(gpu, site, choice, on_event)?;
@@ -188,7 +188,10 @@ fn add_instants(
 /// What draws.
 fn provenance(site: &Site, choice: Choice, painter: &Painter) -> Provenance {
     Provenance {
-        technique: if choice == Choice::Rays { Method::RayCast } else { Method::SoftTexture },
+        technique: match choice {
+            Choice::Rays => Method::RayCast,
+            Choice::Texture | Choice::Auto => Method::SoftTexture,
+        },
         finder: None,
         engine: if matches!(painter, Painter::OnGpu(_)) { Engine::Gpu } else { Engine::Cpu },
         adapter: match painter {
@@ -230,13 +233,13 @@ pub(crate) fn seen_receivers(site: &Site) -> Result<(Mesh, Surface), StudyError>
 }
 
 /// The technique that judges patches.
-fn choice(site: &Site) -> Result<Choice, Misfit> {
+fn choice(site: &Site) -> Result<Choice, StudyError> {
     let (method, subject) = (site.method, Subject::Patches);
-    method.row().fit(site.engine, subject)?;
+    method.row().fit(site.engine, subject).map_err(|misfit| StudyError::of_site(site, misfit))?;
     // both techniques that `auto` may choose use the same options
     let row = if method == Method::Auto { Method::SoftTexture.row() } else { method.row() };
     row.check(site.finder, &site.settings, site.engine, subject)?;
-    way_of(method)
+    Ok(way_of(method)?)
 }
 
 /// How a technique judges patches.
@@ -279,17 +282,21 @@ fn painter(
 }
 
 /// Notes coarser texels than requested, areas that do not count, and patches whose outer side is unknown.
-fn note_patches(patches: &Patches, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+fn note_patches(site: &Site, patches: &Patches, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     if patches.list.is_empty() {
-        return Err(StudyError::NoPatch);
+        let message = message![
+            "no component that receives has a surface";
+            "see ", setting("[[model]]", "receives", "`receives` under [[model]]")
+        ];
+        return Err(StudyError::NoPatch(site.worded(message)));
     }
     if patches.cell > patches.asked_cell {
         let (cell, asked) = (patches.cell, patches.asked_cell);
         let note = message![
             format!("surfaces have texels of {cell:.3} m instead of {asked:?} m, which would be too many");
-            "leave components out with ", setting("[[model]]", "receives", "`receives`"), " to have finer ones"
+            "leave components out with ", setting("[[model]]", "receives", "`receives` under [[model]]"), " to have finer ones"
         ];
-        tell(on_event, Event::Note(note))?;
+        tell(on_event, Event::Note(site.worded(note)))?;
     }
     let left_out = [
         (patches.left_out.doubled_m2, "exist twice and count once"),

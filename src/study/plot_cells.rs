@@ -23,7 +23,7 @@ pub fn plot_grid(plot: &JudgedPlot, cell_m: Option<f64>) -> Option<Grid> {
     let cell = cell_m.unwrap_or_else(round);
     let around = ((longer * AROUND).max(LEAST_AROUND_M) / cell).ceil() * cell;
     let size = ((high - low + 2.0 * around) / cell).ceil();
-    // a border that is no number has no size either
+    // a border with NaN has no size either
     let is_fit = size.x > 0.0 && size.y > 0.0 && size.x * size.y <= MOST_CELLS;
     is_fit.then_some(Grid {
         west: low.x - around,

@@ -6,6 +6,7 @@ use chrono::{DateTime, NaiveDate, NaiveDateTime};
 
 /// Why a place, a reading or a window is refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum SunError {
     /// A coordinate out of range, or not a number.
     OutOfRange {

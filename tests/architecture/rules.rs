@@ -148,6 +148,8 @@ pub(super) const WORDS_OF_A_FACE: &[&str] = &[
     "gnomon probe",
     "gnomon open",
     "gnomon judge",
+    "gnomon envelope",
+    "gnomon rules",
 ];
 
 /// Where these words are meant: a menu of another program, the reference of the site file, and a window that cannot open.

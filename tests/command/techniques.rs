@@ -199,3 +199,16 @@ fn a_technique_in_the_site_file_is_shown_and_night_is_told() {
         assert!(!String::from_utf8_lossy(&output.stdout).contains("overdraw"), "{night}");
     }
 }
+
+/// What the site file chose is blamed on its key, and what the command line chose on its option.
+#[test]
+fn a_technique_that_does_not_fit_is_blamed_on_who_chose_it() {
+    let folder = site();
+    let text = std::fs::read_to_string(folder.path().join("site.toml")).unwrap();
+    let named = text.replace("[study]\n", "[study]\ntechnique = \"projected\"\n");
+    assert_ne!(text, named);
+    std::fs::write(folder.path().join("named.toml"), named).unwrap();
+    let arguments = "shadow named.toml --at 2026-09-18T15:00 --view camera";
+    fails(folder.path(), arguments, 2, &["named.toml, [study] technique: projected does not draw"]);
+    fails(folder.path(), &format!("{arguments} --technique projected"), 2, &["--technique: projected does not draw"]);
+}

@@ -67,3 +67,14 @@ fn volumes_that_cannot_be_are_told() {
     fails(folder.path(), "volumes . --at 2026-09-18T15:00 --out site.toml/v.glb", 1, &["cannot write", "--out"]);
     assert_eq!(names(folder.path().to_owned()), ["open.glb", "site.toml", "tower.glb"]);
 }
+
+/// Where there is no site file, a way out is an option, or is said to be a key of a site file.
+#[test]
+fn without_a_site_file_no_key_is_named_as_if_there_were_one() {
+    let folder = site();
+    let none =
+        gnomon(folder.path(), "volumes open.glb --place 48.8583,2.2945 --at 2026-09-18T15:00 --ground 500 --quiet");
+    let said = stderr(&none);
+    assert!(said.contains("nothing above the ground casts") && said.contains("--ground"), "{said}");
+    assert!(said.contains("`casts` under [[model]] in a site file") && !said.contains("`level`"), "{said}");
+}

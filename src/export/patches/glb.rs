@@ -34,7 +34,7 @@ const NO_NUMBER: u16 = u16::MAX;
 /// [`ExportError::Encode`] if nothing receives, or if the file would be 4 GiB or larger.
 pub fn glb(found: &PatchContext) -> Result<Vec<u8>, ExportError> {
     if found.patches.list.is_empty() {
-        return Err(refused("no surface receives; check `receives`"));
+        return Err(refused("no surface receives"));
     }
     let mut file = SurfaceFile::default();
     let seconds = seconds_a_unit(found);

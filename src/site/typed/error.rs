@@ -7,6 +7,7 @@ use chrono::NaiveDate;
 
 /// Why a typed value is refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum TypedError {
     /// Not a number.
     Number(String),
