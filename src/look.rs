@@ -74,6 +74,12 @@ pub struct Look {
     pub plan_roof_sun: [u8; 3],
     /// Roofs in the shade.
     pub plan_roof_shade: [u8; 3],
+    /// Roofs that are not judged, where only the ground is.
+    pub plan_roof_unjudged: [u8; 3],
+    /// The ground of plans that are lines alone.
+    pub lines_ground: [u8; 3],
+    /// Text and lines on paper.
+    pub ink: [u8; 3],
     /// The factor in the shade for components with colours of their own.
     pub plan_tint_shade: f64,
     /// How strongly slopes differ from level roofs.
@@ -159,6 +165,9 @@ pub const LOOK: Look = Look {
     plan_ground_shade: [140, 152, 173],
     plan_roof_sun: [255, 255, 253],
     plan_roof_shade: [174, 183, 198],
+    plan_roof_unjudged: [224, 222, 216],
+    lines_ground: [253, 251, 246],
+    ink: [35, 38, 44],
     plan_tint_shade: 0.78,
     relief: 0.26,
     relief_of_hours: 0.10,

@@ -176,6 +176,8 @@ fn off(picture: [u8; 4], drawing: [u8; 3]) -> u8 {
 /// than they may.
 #[derive(Debug)]
 struct Compared {
+    /// All pixels.
+    all: usize,
     plain: usize,
     plain_off: usize,
     border: usize,
@@ -183,6 +185,11 @@ struct Compared {
 }
 
 impl Compared {
+    /// The share of all pixels that were compared.
+    fn share(&self) -> f64 {
+        (self.plain + self.border) as f64 / self.all as f64
+    }
+
     /// At most one in ten thousand pixels without a line is off, and one in a hundred at a border.
     fn holds(&self) -> bool {
         self.plain_off * 10_000 <= self.plain && self.border_off * 100 <= self.border
@@ -210,7 +217,7 @@ impl Pair {
     }
 
     fn compare(&self) -> Compared {
-        let mut compared = Compared { plain: 0, plain_off: 0, border: 0, border_off: 0 };
+        let mut compared = Compared { all: self.picture.len(), plain: 0, plain_off: 0, border: 0, border_off: 0 };
         for (pixel, (picture, drawing)) in self.picture.iter().zip(&self.drawing).enumerate() {
             let off = off(*picture, *drawing);
             match self.planes_near(pixel, REACH).len() {
@@ -252,6 +259,7 @@ fn the_windows_picture_has_the_drawings_look() {
         for (word, view) in views(&site) {
             let compared = pair(&site, view, Content::Sun).compare();
             assert!(compared.plain > 10_000 && compared.border > 500, "{name} {at} {word}: {compared:?}");
+            assert!(compared.share() > 0.5, "{name} {at} {word}: {:.2}, {compared:?}", compared.share());
             assert!(compared.holds(), "{name} {at} {word}: {compared:?}");
         }
     }

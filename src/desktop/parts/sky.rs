@@ -5,13 +5,14 @@ use crate::desktop::parts::theme::{self, SUN};
 use crate::desktop::state::clock::Clock;
 use crate::desktop::state::pick::Dome;
 use crate::desktop::state::unit::Unit;
+use crate::look::LOOK;
 use crate::sun::Instant;
 use crate::view::{Camera, View};
 use eframe::egui::{self, Align2, Color32, FontId, Pos2, Rect, Sense, Shape, Stroke, Vec2, pos2, vec2};
 use glam::DVec3;
 
 /// The ink for the picture, which is bright in both themes.
-pub(in crate::desktop) const INK: Color32 = Color32::from_rgb(35, 38, 44);
+pub(in crate::desktop) const INK: Color32 = Color32::from_rgb(LOOK.ink[0], LOOK.ink[1], LOOK.ink[2]);
 const PATH: Color32 = Color32::from_rgb(196, 116, 30);
 
 /// The position of a point of the world in the picture; `None` behind the eye.

@@ -1,5 +1,6 @@
 //! The look of the window: one accent colour, quiet panels, the fonts of the drawings.
 
+use crate::look::LOOK;
 use eframe::egui::epaint::Shadow;
 use eframe::egui::style::{HandleShape, Selection, WidgetVisuals, Widgets};
 use eframe::egui::{
@@ -90,7 +91,7 @@ fn visuals(dark: bool) -> egui::Visuals {
     let raised = tone([233, 230, 224], [50, 52, 56]);
     let over = tone([223, 219, 211], [62, 64, 69]);
     let hair = tone([216, 212, 204], [60, 62, 66]);
-    let ink = tone([35, 38, 44], [228, 226, 221]);
+    let ink = tone(LOOK.ink, [228, 226, 221]);
     let quiet = tone([92, 96, 104], [160, 162, 166]);
     let widget = |fill, stroke: Color32, text| WidgetVisuals {
         bg_fill: fill,

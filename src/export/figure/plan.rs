@@ -12,7 +12,7 @@ use glam::DVec3;
 use std::ops::Range;
 
 /// Roofs that are not judged.
-pub(super) const ROOF_UNJUDGED: Rgb = [224, 222, 216];
+pub(super) const ROOF_UNJUDGED: Rgb = LOOK.plan_roof_unjudged;
 
 /// Hours of shadow.
 pub(super) fn profile<S: SurfaceRows, C: ShadedCells>(

@@ -2,10 +2,11 @@
 
 use super::scale::Rgb;
 use super::text::{self, FontWeight};
+use crate::look::LOOK;
 use std::fmt::Write;
 
 /// The colours of text, of secondary text and of hairlines, and the only accent colour.
-pub(super) const INK: Rgb = [35, 38, 44];
+pub(super) const INK: Rgb = LOOK.ink;
 pub(super) const GRAY: Rgb = [104, 108, 115];
 pub(super) const HAIR: Rgb = [188, 184, 174];
 pub(super) const ACCENT: Rgb = [190, 82, 44];

@@ -13,9 +13,10 @@ use crate::export::figure::svg::{ACCENT, Block, INK, LetterStyle};
 use crate::export::figure::text::{self, FontWeight};
 use crate::export::figure::{self, words};
 use crate::export::{ExportError, report};
+use crate::look::LOOK;
 
 /// The colours of the ground, of buildings, of the lowest and of the greatest height, and of lines.
-const GROUND: Rgb = [253, 251, 246];
+const GROUND: Rgb = LOOK.lines_ground;
 const BUILDING: Rgb = [227, 223, 214];
 const LOW: Rgb = [252, 233, 196];
 const HIGH: Rgb = [96, 132, 172];

@@ -11,6 +11,7 @@ use crate::export::figure::svg::{Block, LetterStyle};
 use crate::export::figure::text::FontWeight;
 use crate::export::figure::{self, FigureContext, UNJUDGED, plan, words};
 use crate::export::{ExportError, check_size};
+use crate::look::LOOK;
 use crate::sun::Instant;
 use crate::view::{Bits, Grid, SurfaceRows};
 
@@ -29,7 +30,7 @@ pub struct Outline {
 /// The colours from morning to evening.
 const DAY: [Rgb; 5] = [[24, 74, 150], [14, 120, 128], [96, 96, 24], [190, 84, 16], [150, 24, 60]];
 /// Ground and roofs; lighter than under a single shadow.
-const GROUND: Rgb = [253, 251, 246];
+const GROUND: Rgb = LOOK.lines_ground;
 const ROOF: Rgb = [231, 224, 210];
 const SHADE: Rgb = [92, 106, 132];
 /// The darkness of the shade where the shadows of all instants overlap.
