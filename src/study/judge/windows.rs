@@ -81,7 +81,8 @@ fn rounded((normal, along): WallPlane) -> [i64; 4] {
 fn open_by_normal(judging: &Judging<'_>, windows: &[JudgedWindow]) -> OpenByNormal {
     let mut normals: Vec<DVec3> = windows.iter().map(|window| window.outward).collect();
     normals.sort_by_key(|normal| bits(*normal));
-    normals.dedup();
+    // by their bits, as the keys are: −0 equals 0
+    normals.dedup_by_key(|normal| bits(*normal));
     normals.into_par_iter().map(|normal| (bits(normal), judging.days.open(Some(normal)))).collect()
 }
 
