@@ -6,6 +6,7 @@ mod dwellings;
 mod geometry;
 mod lacking;
 mod openings;
+mod parts;
 mod takers;
 mod windows;
 

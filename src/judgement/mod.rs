@@ -9,7 +9,8 @@ mod plot_lines;
 mod triangles;
 
 pub use answer::{
-    AreaSize, DayCount, GroupKind, GroupRuling, JudgedThing, Judgement, ReceiverRuling, ReceiverSpells, Taker,
+    AreaSize, DayCount, ERROR_ODDS, GroupKind, GroupRuling, JudgedThing, Judgement, ReceiverRuling, ReceiverSpells,
+    Taker,
 };
 pub use lit_spell::{LitSpell, SpellBound, both, clipped, spells_of};
 pub use narrow::narrow_place;

@@ -6,7 +6,7 @@ use super::numbers::{
     CHECK, blocker, component_name, date_of, deciding, least_counted, number, secs_of, share_of, time,
 };
 use super::rule_report::{RuleReport, SettledReport, rule_report, settled_report};
-use crate::judgement::{GroupRuling, Judgement, LitSpell, ReceiverRuling, ReceiverSpells, Taker};
+use crate::judgement::{ERROR_ODDS, GroupRuling, Judgement, LitSpell, ReceiverRuling, ReceiverSpells, Taker};
 use crate::message::{Message, Words};
 use crate::rules::{Finding, Quantity, Ruling, Spell};
 use crate::site::{JudgedSite, JudgedState};
@@ -83,6 +83,7 @@ struct ReceiverReport<'a> {
     share_before: Option<f64>,
     share_difference: Option<f64>,
     share_error: Option<f64>,
+    share_error_odds: Option<f64>,
     excuse: Option<String>,
     worst: WorstReport,
     points: Vec<[f64; 3]>,
@@ -160,7 +161,8 @@ const MOST_TOLD: usize = 8;
 /// - `days`, each with its date, its verdict over all receivers, and the counted `windows`, with those of each criterion
 ///   (null if it is bound to other days);
 /// - `receivers`: the deciding number with its limit, its margin (negative if it is missed), the number before and the
-///   difference, in seconds or, for areas, as a share of the area with the error `share_error`; the `worst` day and point;
+///   difference, in seconds or, for areas, as a share of the area with the error `share_error`, which is exceeded with a
+///   probability of at most `share_error_odds`; the `worst` day and point;
 ///   what is counted on each day (`seconds_by_day`, in the order of `days`); the `findings` of each criterion on each day
 ///   (only the deciding one if there are more than 8 days); the spells of the same days at the point, also in the state
 ///   before (`start` is the first second in the sun, `end` the first after it; `before` and `after` say what blocks);
@@ -263,6 +265,7 @@ fn receiver_report<'a>(judgement: &'a Judgement, site: &JudgedSite, of: &'a Rece
         share_before: share(before),
         share_difference: share(value).zip(share(before)).map(|(now, before)| now - before),
         share_error: of.area.filter(|_| share(value).is_some()).map(|area| area.error_m2 / area.m2),
+        share_error_odds: of.area.filter(|_| share(value).is_some()).map(|_| ERROR_ODDS),
         excuse: finding.and_then(|finding| finding.excuse).map(super::numbers::excuse),
         worst: WorstReport {
             date: date_of(judgement, of).map(|date| date.to_string()),
