@@ -3,6 +3,7 @@
 use super::sift::Halfspace;
 use super::sky_cells::SunPyramid;
 use super::sun_path::MOST_OFF_RAD;
+use super::wall_front::WallFront;
 use crate::mesh::Mesh;
 use glam::{DVec3, Vec3, Vec3A};
 use obvhs::BvhBuildParams;
@@ -79,6 +80,11 @@ impl SeenBox {
         let radius = self.half.length();
         let away = self.middle.length() - radius;
         radius > 3.0 * away * pyramid.half
+    }
+
+    /// Whether it may reach in front of a wall, for the point that sees it.
+    pub(super) fn may_reach(&self, front: &WallFront, point: DVec3) -> bool {
+        front.may_have(self.middle + point, self.half)
     }
 
     /// The square of its least distance.

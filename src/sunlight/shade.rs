@@ -1,16 +1,16 @@
 //! Finds the seconds in which faces block the sun from a probe, for all days at once. It descends the cells of the
 //! sky's band, each with only the faces that reach it.
-//! with the faces alone that reach it.
 //!
 //! A cell that no face reaches is lit, and one that a single face fills is dark, without a look at its single days.
 //! What remains are slots of single days. In each, the faces, nearest first, remove the seconds that they certainly
 //! cover, until no second or no face is left. Seconds so close to a face's side that the polynomials cannot decide are
 //! doubtful: the exact ray decides them.
 
-use super::face_tree::{BoxContents, FaceTree, SeenFace, SunCoverage};
+use super::face_tree::{BoxContents, FaceTree, SeenBox, SeenFace, SunCoverage};
 use super::sift::{Halfspace, Sureness, sift, sift_flat};
 use super::sky_cells::{SunCell, SunCells, SunPyramid};
 use super::sun_path::{MOST_OFF_RAD, SLOT_SECS, Second, SunPath, SunPiece};
+use super::wall_front::WallFront;
 use glam::{DVec3, Vec3};
 use std::ops::Range;
 
@@ -40,6 +40,8 @@ struct Descent<'a> {
     point: DVec3,
     /// The probe's plane, as an obstacle for what is behind it.
     behind: Option<Halfspace>,
+    /// Which faces cast, if not all do.
+    front: Option<WallFront>,
     /// A stack of what may reach the cells from the root to the current one; each cell's candidates follow its
     /// parent's.
     reaching: Vec<Candidate>,
@@ -47,16 +49,17 @@ struct Descent<'a> {
     shades: Vec<Shade>,
 }
 
-/// The shade of a probe on each of several days; `point` is relative to the mesh's origin.
+/// The shade of a probe on each of several days; `point` and `front` are relative to the mesh's origin.
 pub(super) fn shades(
     tree: &FaceTree,
     cells: &SunCells,
     paths: &[SunPath<'_>],
-    (point, normal): (DVec3, Option<DVec3>),
+    (point, normal, front): (DVec3, Option<DVec3>, Option<WallFront>),
 ) -> Vec<Shade> {
     let behind = normal.map(|normal| Halfspace { normal: -normal, slack: 1e-15 });
     let shades = vec![Shade::default(); paths.len()];
-    let mut descent = Descent { tree, cells, paths, point, behind, reaching: Vec::new(), faces: Vec::new(), shades };
+    let (reaching, faces) = (Vec::new(), Vec::new());
+    let mut descent = Descent { tree, cells, paths, point, behind, front, reaching, faces, shades };
     descent.reaching.extend(tree.root().map(Candidate::Box));
     if let Some(root) = cells.root {
         descent.descend(root, 0, normal.is_none());
@@ -127,7 +130,7 @@ impl<'a> Descent<'a> {
             }
             while let Some(at) = open.pop() {
                 let seen = self.tree.seen(at, self.point);
-                if seen.is_outside(pyramid) {
+                if seen.is_outside(pyramid) || !self.may_cast(&seen) {
                     continue;
                 }
                 if !seen.is_large(pyramid) {
@@ -147,8 +150,16 @@ impl<'a> Descent<'a> {
         false
     }
 
+    /// Whether any face within a box may cast.
+    fn may_cast(&self, seen: &SeenBox) -> bool {
+        self.front.is_none_or(|front| seen.may_reach(&front, self.point))
+    }
+
     /// Adds a face if it reaches a pyramid. Returns whether it fills it.
     fn add_face(&mut self, corners: &[Vec3; 3], pyramid: &SunPyramid) -> bool {
+        if self.front.is_some_and(|front| !front.has(corners)) {
+            return false;
+        }
         let face = SeenFace::new(corners, self.point);
         let coverage = face.coverage(pyramid);
         if coverage == SunCoverage::Part {
@@ -162,7 +173,7 @@ impl<'a> Descent<'a> {
     fn look_at_slot(&mut self, cell: &SunCell, pyramid: &SunPyramid, reaching: Range<usize>, is_before: bool) {
         let path = &self.paths[cell.days.start];
         let shade = &mut self.shades[cell.days.start];
-        let (tree, point, faces) = (self.tree, self.point, &self.faces);
+        let (tree, point, front, faces) = (self.tree, self.point, self.front, &self.faces);
         let mut open = OpenSeconds::new(path, cell.slots.start, pyramid);
         if let Some(behind) = self.behind.filter(|_| !is_before) {
             open.take(&[behind], [f64::NEG_INFINITY, f64::INFINITY], shade);
@@ -198,7 +209,8 @@ impl<'a> Descent<'a> {
                     left.extend(two);
                 }
                 BoxContents::Faces(faces) => {
-                    faces.iter().for_each(|corners| open.shade(&SeenFace::new(corners, point), shade));
+                    let casting = faces.iter().filter(|corners| front.is_none_or(|front| front.has(corners)));
+                    casting.for_each(|corners| open.shade(&SeenFace::new(corners, point), shade));
                 }
             }
         }

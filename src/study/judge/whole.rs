@@ -4,7 +4,7 @@ use super::super::StudyError;
 use super::days::JudgedDays;
 use super::judging::{Judging, Steps};
 use super::receivers::{ShadedReceiver, deciding_day};
-use super::takers::{ShadedPoints, TakerSearch, sort};
+use super::takers::{ShadedPoints, TakerDay, TakerSearch, sort};
 use crate::judgement::{GroupKind, GroupRuling, JudgedThing, ReceiverRuling, Taker};
 use crate::message::Message;
 use crate::rules::{CompareWith, Finding, ResolvedRule, RuleDay, RuleReceiver, Ruling, Verdict, without};
@@ -82,13 +82,14 @@ pub(super) fn with_takers(
             reach.extend(shaded.parts.iter().flat_map(|part| &part.points).map(|at| at.point));
         }
     }
+    let mut search = TakerSearch::new(judging, reach);
     for (day, numbers) in by_day {
         let of_day =
             JudgedDays::new(judging.site, judging.rule.cuts, &judging.days.days[day..=day], &hulls[day..=day])?;
-        let mut search = TakerSearch::new(judging, of_day, reach.clone())?;
+        let of_day = TakerDay::new(judging, of_day)?;
         for number in numbers {
             let (receiver, shaded) = &mut receivers[number];
-            receiver.takers = takers(&mut search, shaded, day)?;
+            receiver.takers = takers(&mut search, shaded, (day, &of_day))?;
             steps.poll()?;
         }
     }
@@ -96,14 +97,18 @@ pub(super) fn with_takers(
 }
 
 /// The takers of a receiver, with the mean over its parts.
-fn takers(search: &mut TakerSearch<'_>, shaded: &ShadedReceiver, day: usize) -> Result<Vec<Taker>, StudyError> {
+fn takers(
+    search: &mut TakerSearch<'_>,
+    shaded: &ShadedReceiver,
+    (day, of_day): (usize, &TakerDay<'_>),
+) -> Result<Vec<Taker>, StudyError> {
     let mut sums: HashMap<u32, [f64; 2]> = HashMap::new();
     for part in &shaded.parts {
         let open = part.open[day].clone();
         let dark = without(&open, &part.lit[day]);
         let points =
             ShadedPoints { points: part.points.clone(), open: vec![open; part.points.len()], wall: shaded.wall };
-        for taker in search.takers(&points, &dark)? {
+        for taker in search.takers(of_day, &points, &dark)? {
             let sum = sums.entry(taker.component).or_default();
             sum[0] += taker.alone_secs;
             sum[1] += taker.with_others_secs;
