@@ -10,8 +10,10 @@ use super::{Interval, IntervalBound, JudgedPoint};
 use crate::mesh::Mesh;
 use crate::shadow::ray_cast::{RayCaster, Shear};
 use crate::sun::{Air, DayWindow, Place, SunError};
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use rayon::prelude::*;
+use rustc_hash::FxHashSet;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// If there are no more days than this, the exact suns of their seconds are kept.
@@ -43,9 +45,24 @@ impl<'a> SearchedDays<'a> {
 pub struct ProbeSearch {
     casters: Mesh,
     rays: RayCaster,
-    tree: FaceTree,
+    /// The faces that cast, some of which another search may share.
+    trees: Vec<Arc<FaceTree>>,
     /// The number of probe-days that were decided second by second, because two answers disagreed.
     distrusted: AtomicUsize,
+}
+
+/// The corners of each face.
+fn corners(mesh: &Mesh) -> impl Iterator<Item = [Vec3; 3]> {
+    (0..mesh.faces.len()).map(|face| mesh.corners(face))
+}
+
+fn bits(corners: [Vec3; 3]) -> [[u32; 3]; 3] {
+    corners.map(|corner| corner.to_array().map(f32::to_bits))
+}
+
+fn rays(casters: &Mesh, points: &[JudgedPoint]) -> RayCaster {
+    let reach = points.iter().map(|at| (at.point - casters.origin).abs().max_element());
+    RayCaster::new(casters, reach.fold(0.0, f64::max))
 }
 
 /// A point as it is searched.
@@ -61,10 +78,31 @@ struct SearchedPoint {
 impl ProbeSearch {
     /// Prepares a search for probes judged at these points of the world.
     pub fn new(casters: Mesh, points: &[JudgedPoint]) -> ProbeSearch {
-        let reach = points.iter().map(|at| (at.point - casters.origin).abs().max_element());
-        let reach = reach.fold(0.0, f64::max);
-        let (rays, tree) = rayon::join(|| RayCaster::new(&casters, reach), || FaceTree::new(&casters));
-        ProbeSearch { casters, rays, tree, distrusted: AtomicUsize::new(0) }
+        let faces = corners(&casters).collect::<Vec<_>>();
+        let (rays, tree) = rayon::join(|| rays(&casters, points), || FaceTree::new(&faces));
+        ProbeSearch { casters, rays, trees: vec![Arc::new(tree)], distrusted: AtomicUsize::new(0) }
+    }
+
+    /// Prepares the searches of two states. What casts in both is searched once for both, if the points are the same.
+    pub fn two(states: [Mesh; 2], points: &[JudgedPoint]) -> [ProbeSearch; 2] {
+        let [one, other] = &states;
+        let of_other: FxHashSet<[[u32; 3]; 3]> = match one.origin == other.origin {
+            true => corners(other).map(bits).collect(),
+            false => FxHashSet::default(),
+        };
+        let (both, own): (Vec<_>, Vec<_>) = corners(one).partition(|face| of_other.contains(&bits(*face)));
+        let in_both: FxHashSet<[[u32; 3]; 3]> = both.iter().copied().map(bits).collect();
+        let of_other: Vec<_> = corners(other).filter(|face| !in_both.contains(&bits(*face))).collect();
+        let both = Arc::new(FaceTree::new(&both));
+        let search = |casters: Mesh, own: &[[Vec3; 3]]| ProbeSearch {
+            rays: rays(&casters, points),
+            casters,
+            trees: vec![Arc::clone(&both), Arc::new(FaceTree::new(own))],
+            distrusted: AtomicUsize::new(0),
+        };
+        let [one, other] = states;
+        let (one, other) = rayon::join(|| search(one, &own), || search(other, &of_other));
+        [one, other]
     }
 
     /// Returns the names of the components that cast.
@@ -100,8 +138,50 @@ impl ProbeSearch {
             return Ok(vec![Vec::new(); days.paths.len()]);
         }
         let at = self.searched(at, wall);
-        let shades = shades(&self.tree, &days.cells, &days.paths, (at.local, at.normal, at.front));
-        days.paths.iter().zip(shades).map(|(path, shade)| self.of_day(&at, path, shade)).collect()
+        let first = self.first_shades(&at, days);
+        self.finished(&at, first, days)
+    }
+
+    /// The same in two states, of which [`ProbeSearch::two`] made the searches.
+    ///
+    /// # Errors
+    /// As for [`SunPath::new`].
+    pub fn intervals_in_both(
+        [one, other]: [&ProbeSearch; 2],
+        at: [&JudgedPoint; 2],
+        wall: Option<WallFront>,
+        days: &SearchedDays<'_>,
+    ) -> Result<[Vec<Vec<Interval>>; 2], SunError> {
+        if at[0] != at[1] || at[0].below_ground_m.is_some() || !Arc::ptr_eq(&one.trees[0], &other.trees[0]) {
+            return Ok([one.intervals_before(at[0], wall, days)?, other.intervals_before(at[1], wall, days)?]);
+        }
+        let at = one.searched(at[0], wall);
+        let first = one.first_shades(&at, days);
+        Ok([one.finished(&at, first.clone(), days)?, other.finished(&at, first, days)?])
+    }
+
+    /// The shade of the first tree, on each day.
+    fn first_shades(&self, at: &SearchedPoint, days: &SearchedDays<'_>) -> Vec<Shade> {
+        let mut found = shades(&self.trees[0], &days.cells, &days.paths, (at.local, at.normal, at.front), &[]);
+        found.iter_mut().for_each(Shade::put_in_order);
+        found
+    }
+
+    /// The intervals of each day, once the shade of the other trees is added.
+    fn finished(
+        &self,
+        at: &SearchedPoint,
+        mut found: Vec<Shade>,
+        days: &SearchedDays<'_>,
+    ) -> Result<Vec<Vec<Interval>>, SunError> {
+        for tree in &self.trees[1..] {
+            let known: Vec<Vec<[Second; 2]>> = found.iter().map(|shade| shade.dark.clone()).collect();
+            let more = shades(tree, &days.cells, &days.paths, (at.local, None, at.front), &known);
+            for (shade, more) in found.iter_mut().zip(more) {
+                shade.add(more);
+            }
+        }
+        days.paths.iter().zip(found).map(|(path, shade)| self.of_day(at, path, shade)).collect()
     }
 
     fn searched(&self, at: &JudgedPoint, wall: Option<WallFront>) -> SearchedPoint {
@@ -115,21 +195,18 @@ impl ProbeSearch {
 
     /// A day's intervals. If the exact rays at their ends contradict them, every second is tested instead.
     fn of_day(&self, at: &SearchedPoint, path: &SunPath<'_>, shade: Shade) -> Result<Vec<Interval>, SunError> {
-        let lit = self.lit(at, path, shade)?;
+        let lit = self.lit(at, path, &shade)?;
         if let Some(found) = self.bounded(at, path, &lit)? {
             return Ok(found);
         }
         self.distrusted.fetch_add(1, Ordering::Relaxed);
         let doubtful = path.up_secs.iter().flat_map(|up| up.clone()).collect();
-        let lit = self.lit(at, path, Shade { dark: Vec::new(), doubtful })?;
+        let lit = self.lit(at, path, &Shade { dark: Vec::new(), doubtful })?;
         Ok(self.bounded(at, path, &lit)?.unwrap_or_default())
     }
 
     /// Runs of seconds in sunlight, first and last.
-    fn lit(&self, at: &SearchedPoint, path: &SunPath<'_>, mut shade: Shade) -> Result<Vec<[Second; 2]>, SunError> {
-        shade.dark.sort_unstable();
-        shade.doubtful.sort_unstable();
-        shade.doubtful.dedup();
+    fn lit(&self, at: &SearchedPoint, path: &SunPath<'_>, shade: &Shade) -> Result<Vec<[Second; 2]>, SunError> {
         let mut lit = Vec::new();
         let mut dark = shade.dark.iter().peekable();
         for up in &path.up_secs {

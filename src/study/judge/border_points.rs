@@ -11,9 +11,11 @@ use crate::judgement::ERROR_ODDS;
 use glam::DVec3;
 
 /// The error of a sum, as a multiple of the root of the sum of its terms' squares, if this many sums are to keep theirs
-/// together with a probability of all but [`ERROR_ODDS`].
-pub(super) fn error_factor(sums: usize) -> f64 {
-    ((2.0 * sums.max(1) as f64 / ERROR_ODDS).ln() / 2.0).sqrt()
+/// together, whatever the number of rounds in which they are drawn, with a probability of all but [`ERROR_ODDS`]. The
+/// first round has half of these odds, and each other one half of what the one before it has.
+pub(super) fn error_factor(sums: usize, round: u32) -> f64 {
+    let odds = ERROR_ODDS / 2f64.powi(round as i32 + 1) / sums.max(1) as f64;
+    ((2.0 / odds).ln() / 2.0).sqrt()
 }
 
 /// Points in a triangle, each anywhere in it with the same probability. Another `round` has others.

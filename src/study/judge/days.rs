@@ -103,4 +103,18 @@ impl<'a> JudgedDays<'a> {
         }
         Ok(found)
     }
+
+    /// The same in two states.
+    pub(super) fn intervals_in_both(
+        &self,
+        searches: [&ProbeSearch; 2],
+        (at, wall): ([&JudgedPoint; 2], Option<WallFront>),
+    ) -> Result<[Vec<Vec<Interval>>; 2], SunError> {
+        let mut found = [Vec::new(), Vec::new()];
+        for days in &self.searched {
+            let of_days = ProbeSearch::intervals_in_both(searches, at, wall, days)?;
+            found.iter_mut().zip(of_days).for_each(|(found, more)| found.extend(more));
+        }
+        Ok(found)
+    }
 }

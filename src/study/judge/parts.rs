@@ -13,7 +13,7 @@ use super::samples::{AreaSpot, AreaSums, Leaf, Samples, SpotFunction, spread};
 /// The number of times in which those triangles are split, too, in which a number may pass 0.
 const NEAR_PASSES: usize = 2;
 /// The most times that points are drawn.
-const ROUNDS: usize = 8;
+const ROUNDS: u32 = 8;
 /// The most points that are drawn in a triangle. If more were needed, splitting it takes fewer.
 const MOST_EACH: usize = 3;
 
@@ -40,10 +40,10 @@ impl Samples {
         for _ in 0..NEAR_PASSES {
             self.split_where(value, steps, |three| is_open(three) || is_near(three))?;
         }
-        let factor = error_factor(asked.numbers * ROUNDS);
         let mut good_m2 = asked.good_m2;
-        let mut round = 0;
+        let mut round = 0u32;
         loop {
+            let factor = error_factor(asked.numbers, round);
             let error_m2 = |samples: &Samples| {
                 let errors = (0..asked.numbers).map(|number| samples.open(number).error_m2(factor, 1));
                 errors.fold(0.0, f64::max)
@@ -99,7 +99,7 @@ impl Samples {
     fn drawn(
         &mut self,
         numbers: usize,
-        (factor, each, round): (f64, usize, usize),
+        (factor, each, round): (f64, usize, u32),
         value: SpotFunction<'_>,
         steps: &mut Steps<'_, '_>,
     ) -> Result<AreaSums, StudyError> {
@@ -110,7 +110,7 @@ impl Samples {
         let first = self.spots.len();
         for (leaf, _) in self.leaves.iter().zip(&drawn).filter(|(_, drawn)| **drawn) {
             let [a, b, c] = leaf.corners.map(|corner| self.spots[corner as usize]);
-            let points = points_in([a.at, b.at, c.at], round as u64, each);
+            let points = points_in([a.at, b.at, c.at], round.into(), each);
             self.spots.extend(points.map(|at| AreaSpot { at, normal: a.normal }));
         }
         self.ask(value, steps)?;

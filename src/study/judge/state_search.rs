@@ -3,7 +3,6 @@
 use super::super::ground_heights::GroundHeights;
 use super::days::JudgedDays;
 use crate::judgement::{LitSpell, SpellBound, clipped};
-use crate::mesh::Mesh;
 use crate::rules::Spell;
 use crate::shadow::JUDGED_ABOVE_M;
 use crate::site::JudgedState;
@@ -28,8 +27,7 @@ pub(super) type WallPlane = (DVec3, f64);
 impl StateSearch {
     /// A search for points within the bounds of these.
     pub(super) fn of(state: &JudgedState, points: &[DVec3]) -> StateSearch {
-        let components = (0..).zip(&state.casts).filter(|(_, casts)| **casts).map(|(at, _)| at).collect();
-        StateSearch::with(state, state.mesh.of_components(&state.casts), components, points)
+        StateSearch::with(state, ProbeSearch::new(state.mesh.of_components(&state.casts), &reach(points)), points)
     }
 
     /// A search with a single component. It has no terrain, as its points have been placed already.
@@ -39,9 +37,17 @@ impl StateSearch {
         StateSearch { search, components: vec![component], ground: GroundHeights::plane(state.ground.level) }
     }
 
-    fn with(state: &JudgedState, casters: Mesh, components: Vec<u32>, points: &[DVec3]) -> StateSearch {
-        let ground = GroundHeights::of(&state.mesh, &state.ground, points);
-        StateSearch { search: ProbeSearch::new(casters, &reach(points)), components, ground }
+    /// Searches of two states, for points within the bounds of these.
+    pub(super) fn of_both(states: [&JudgedState; 2], points: &[DVec3]) -> [StateSearch; 2] {
+        let casters = states.map(|state| state.mesh.of_components(&state.casts));
+        let [now, before] = ProbeSearch::two(casters, &reach(points));
+        let [of_now, of_before] = states;
+        [StateSearch::with(of_now, now, points), StateSearch::with(of_before, before, points)]
+    }
+
+    fn with(state: &JudgedState, search: ProbeSearch, points: &[DVec3]) -> StateSearch {
+        let components = (0..).zip(&state.casts).filter(|(_, casts)| **casts).map(|(at, _)| at).collect();
+        StateSearch { search, components, ground: GroundHeights::of(&state.mesh, &state.ground, points) }
     }
 
     /// A point on a plane, judged a millimetre in front of it.
@@ -83,11 +89,27 @@ impl StateSearch {
         open: &[Vec<Spell>],
     ) -> Result<Vec<Vec<LitSpell>>, SunError> {
         let intervals = days.intervals(&self.search, (at, wall.map(front)))?;
+        Ok(self.spells(intervals, days, open))
+    }
+
+    /// The same in two states.
+    pub(super) fn lit_in_both(
+        searches: [&StateSearch; 2],
+        (at, wall): ([&JudgedPoint; 2], Option<WallPlane>),
+        days: &JudgedDays<'_>,
+        open: &[Vec<Spell>],
+    ) -> Result<[Vec<Vec<LitSpell>>; 2], SunError> {
+        let [now, before] = searches;
+        let [of_now, of_before] = days.intervals_in_both([&now.search, &before.search], (at, wall.map(front)))?;
+        Ok([now.spells(of_now, days, open), before.spells(of_before, days, open)])
+    }
+
+    fn spells(&self, intervals: Vec<Vec<Interval>>, days: &JudgedDays<'_>, open: &[Vec<Spell>]) -> Vec<Vec<LitSpell>> {
         let of_day = |((found, windows), open): ((Vec<Interval>, &Vec<Spell>), &Vec<Spell>)| {
             let lit: Vec<LitSpell> = found.iter().map(|interval| self.spell(interval)).collect();
             clipped(&clipped(&lit, windows, SpellBound::Window), open, SpellBound::Cut)
         };
-        Ok(intervals.into_iter().zip(&days.windows).zip(open).map(of_day).collect())
+        intervals.into_iter().zip(&days.windows).zip(open).map(of_day).collect()
     }
 
     fn spell(&self, interval: &Interval) -> LitSpell {

@@ -90,14 +90,11 @@ fn light_of_point(
     (window, spot, point): (&JudgedWindow, &WindowSpot, DVec3),
     open: &[Vec<Spell>],
 ) -> Result<PointLight, SunError> {
-    let of_state = |search: &StateSearch| -> Result<_, SunError> {
-        let at = match spot.through {
-            Some(_) => search.free(point, Some(window.outward)),
-            None => search.in_plane(point, window.outward),
-        };
-        search.lit_before((&at, wall_plane(spot)), judging.days, open)
+    let at = |search: &StateSearch| match spot.through {
+        Some(_) => search.free(point, Some(window.outward)),
+        None => search.in_plane(point, window.outward),
     };
-    let (mut now, mut before) = (of_state(&searches.now)?, searches.before.as_ref().map(of_state).transpose()?);
+    let (mut now, mut before) = searches.lit(at, wall_plane(spot), judging.days, open)?;
     let mut open = open.to_vec();
     if let Some(opening) = &spot.through {
         open = judging.days.before_planes(&open, &opening.planes_from(point));
