@@ -86,6 +86,8 @@ pub const ERROR_ODDS: f64 = 1e-9;
 pub struct AreaSize {
     /// Square metres.
     pub m2: f64,
+    /// The square metres of what is too narrow to count, in plan. They are not in `m2`.
+    pub narrow_m2: f64,
     /// The number of points at which light was searched.
     pub points: usize,
     /// The error of the part that keeps the rule, up or down, square metres. It is exceeded with a probability of

@@ -76,6 +76,7 @@ struct ReceiverReport<'a> {
     before_secs: Option<i64>,
     difference_secs: Option<i64>,
     area_m2: Option<f64>,
+    narrow_m2: Option<f64>,
     area_points: Option<usize>,
     share: Option<f64>,
     share_limit: Option<f64>,
@@ -169,6 +170,7 @@ const MOST_TOLD: usize = 8;
 ///   `open`, when a sun that counts would shine with nothing in its way; and, if it does not pass, `takes`: the seconds of
 ///   the deciding day that each component takes alone (`secs`) and together with others, for an area as the mean over
 ///   points that do not keep the demand;
+///   of an area its size (`area_m2`), without what is too narrow to count (`narrow_m2`);
 /// - `groups`: rooms, dwellings and the house;
 /// - `notes` as in `profile.json`, with those on how it was judged.
 ///
@@ -258,6 +260,7 @@ fn receiver_report<'a>(judgement: &'a Judgement, site: &JudgedSite, of: &'a Rece
         before_secs: secs_of(before),
         difference_secs: secs_of(value).zip(secs_of(before)).map(|(now, before)| now - before),
         area_m2: m2,
+        narrow_m2: of.area.map(|area| area.narrow_m2),
         area_points: of.area.map(|area| area.points),
         share: share(value),
         share_limit: share(limit),

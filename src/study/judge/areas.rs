@@ -6,12 +6,12 @@ use super::judging::{Judging, Steps};
 use super::parts::PartsAsked;
 use super::point_light::{CountedLight, PointLight, merit};
 use super::samples::{AreaSpot, AreaSums, Samples};
-use crate::judgement::{AreaSize, JudgedThing, ReceiverRuling, ReceiverSpells, triangles, triangles_of_faces};
+use crate::judgement::{AreaSize, CountedParts, JudgedThing, ReceiverRuling, ReceiverSpells};
 use crate::rules::{
     AreaLight, CountHow, CountedTime, Criterion, DayLight, Demand, Extent, PartMet, RuleDay, RuleError, RuleNeed,
     Ruling, ShadowLoad, Verdict, total_secs,
 };
-use crate::site::{AreaSurface, JudgedArea};
+use crate::site::JudgedArea;
 use crate::sun::SunError;
 use crate::sunlight::JudgedPoint;
 use rayon::prelude::*;
@@ -63,6 +63,8 @@ struct AreaWork<'w> {
     place: AreaPlace<'w>,
     samples: Samples,
     m2: f64,
+    /// What is too narrow to count.
+    narrow_m2: f64,
 }
 
 /// Judges one area.
@@ -72,16 +74,13 @@ pub(super) fn area(
     area: &JudgedArea,
     steps: &mut Steps<'_, '_>,
 ) -> Result<AreaAnswer, StudyError> {
-    let parts = match &area.surface {
-        AreaSurface::Faces(faces) => triangles_of_faces(faces),
-        AreaSurface::Level(_) | AreaSurface::Ground(_) => triangles(&area.rings),
-    };
-    let m2: f64 = parts.iter().map(|part| part.m2).sum();
+    let counted = CountedParts::of(&judging.rule.receiver, area);
+    let (parts, m2) = (&counted.triangles, counted.m2());
     let question = question(judging);
     let across = if question == AreaQuestion::Load { SIDES_ACROSS_OF_SUMS } else { SIDES_ACROSS };
-    let samples = Samples::new(&parts, (m2.sqrt() / across).max(1e-3));
-    let place = AreaPlace::new(judging, states, &area.surface, &parts);
-    let work = AreaWork { judging, place, samples, m2 };
+    let samples = Samples::new(parts, (m2.sqrt() / across).max(1e-3));
+    let place = AreaPlace::new(judging, states, &area.surface, parts);
+    let work = AreaWork { judging, place, samples, m2, narrow_m2: counted.narrow_m2 };
     let mut answer = match question {
         AreaQuestion::Part => work.part(steps)?,
         AreaQuestion::Load => work.load(steps)?,
@@ -186,7 +185,12 @@ impl AreaWork<'_> {
             name: String::new(),
             kind: JudgedThing::Area,
             ruling,
-            area: Some(AreaSize { m2: self.m2, points: self.samples.values.len(), error_m2 }),
+            area: Some(AreaSize {
+                m2: self.m2,
+                narrow_m2: self.narrow_m2,
+                points: self.samples.values.len(),
+                error_m2,
+            }),
             points: spot.iter().map(|spot| self.place.judged_now(spot).point).collect(),
             normal: spot.and_then(|spot| spot.normal),
             room: None,

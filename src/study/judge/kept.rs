@@ -10,10 +10,10 @@ use super::needs;
 use super::point_light::PointLight;
 use super::samples::AreaSpot;
 use super::windows::{WindowLight, windows};
-use crate::judgement::{DeemedBorder, PartTriangle, triangles, triangles_of_faces};
+use crate::judgement::{CountedParts, DeemedBorder, PartTriangle};
 use crate::rules::{Band, HeightOver, ResolvedRule, RuleDay, RuleReceiver};
 use crate::shadow::JUDGED_ABOVE_M;
-use crate::site::{AreaSurface, JudgedArea, JudgedPlot, JudgedSite, JudgedWindow};
+use crate::site::{JudgedArea, JudgedPlot, JudgedSite, JudgedWindow};
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -143,13 +143,10 @@ fn of_area(
     area: &JudgedArea,
     steps: &mut Steps<'_, '_>,
 ) -> Result<Vec<KeptPlace>, StudyError> {
-    let parts = match &area.surface {
-        AreaSurface::Faces(faces) => triangles_of_faces(faces),
-        AreaSurface::Level(_) | AreaSurface::Ground(_) => triangles(&area.rings),
-    };
-    let m2: f64 = parts.iter().map(|part| part.m2).sum();
-    let on = AreaPlace::new(judging, states, &area.surface, &parts);
-    let spots = spots(&parts, (m2.sqrt() / ACROSS).max(LEAST_M));
+    let counted = CountedParts::of(&judging.rule.receiver, area);
+    let (parts, m2) = (&counted.triangles, counted.m2());
+    let on = AreaPlace::new(judging, states, &area.surface, parts);
+    let spots = spots(parts, (m2.sqrt() / ACROSS).max(LEAST_M));
     let of = |(spot, m2): &(AreaSpot, f64)| -> Result<_, StudyError> {
         place(judging, demand, (*m2, vec![on.judged_now(spot).point]), &on.light(spot)?)
     };

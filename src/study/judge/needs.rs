@@ -1,12 +1,12 @@
 //! What a rule needs and a site does not have: one error that lists all of it.
 
-use crate::judgement::{narrow_place, needed_of_window};
+use crate::judgement::{CountedParts, needed_of_window};
 use crate::message::few;
 use crate::rules::{
     CompareWith, CountedTime, Criterion, DwellingShare, Grouping, HeightOver, ResolvedRule, RuleError, RuleNeed,
     RuleReceiver,
 };
-use crate::site::{AreaSurface, JudgedSite};
+use crate::site::{JudgedArea, JudgedSite};
 use std::collections::BTreeMap;
 
 /// The most names that are listed.
@@ -19,7 +19,7 @@ const MOST_NAMES: usize = 30;
 pub(super) fn check(rule: &ResolvedRule, site: &JudgedSite) -> Result<(), RuleError> {
     let mut needs = Vec::new();
     match &rule.receiver {
-        RuleReceiver::Area { least_width_m } => of_areas(site, *least_width_m, &mut needs),
+        receiver @ RuleReceiver::Area { .. } => of_areas(site, receiver, &mut needs),
         RuleReceiver::Facade if site.facades.is_empty() => needs.push(RuleNeed::of_key("a façade", "[[facade]]", "")),
         RuleReceiver::Facade => {}
         RuleReceiver::Window { .. } => of_windows(rule, site, &mut needs),
@@ -35,21 +35,17 @@ pub(super) fn check(rule: &ResolvedRule, site: &JudgedSite) -> Result<(), RuleEr
     Err(RuleError::Needs { rule: rule.id.clone(), needs })
 }
 
-fn of_areas(site: &JudgedSite, least_width_m: f64, needs: &mut Vec<RuleNeed>) {
+fn of_areas(site: &JudgedSite, receiver: &RuleReceiver, needs: &mut Vec<RuleNeed>) {
     if site.areas.is_empty() {
         needs.push(RuleNeed::of_key("an area", "[[area]]", ""));
     }
-    for area in &site.areas {
-        if matches!(area.surface, AreaSurface::Faces(_)) {
-            continue;
-        }
-        if let Some((at, wide)) = narrow_place(&area.rings, least_width_m) {
-            needs.push(RuleNeed::without_key(format!(
-                "area {:?} without the part around ({:.2}, {:.2}), where it is {wide:.2} m wide and parts narrower than \
-                 {least_width_m} m do not count",
-                area.name, at.x, at.y
-            )));
-        }
+    let has_none = |area: &&JudgedArea| CountedParts::of(receiver, area).triangles.is_empty();
+    let narrow: Vec<String> = site.areas.iter().filter(has_none).map(|area| format!("{:?}", area.name)).collect();
+    if let RuleReceiver::Area { least_width_m } = receiver
+        && !narrow.is_empty()
+    {
+        let of = if narrow.len() <= MOST_NAMES { narrow.join(", ") } else { few(narrow) };
+        needs.push(RuleNeed::without_key(format!("a part that is at least {least_width_m} m wide in area {of}")));
     }
 }
 

@@ -6,9 +6,8 @@ use super::judging::{Judging, Steps};
 use super::receivers::{ShadedReceiver, deciding_day};
 use super::takers::{ShadedPoints, TakerDay, TakerSearch, sort};
 use crate::judgement::{GroupKind, GroupRuling, JudgedThing, ReceiverRuling, Taker};
-use crate::message::Message;
+use crate::message::{Message, few};
 use crate::rules::{CompareWith, Finding, ResolvedRule, RuleDay, RuleReceiver, Ruling, Verdict, without};
-use crate::site::AreaSurface;
 use crate::sun::DayWindow;
 use glam::DVec3;
 use std::collections::{BTreeMap, HashMap};
@@ -131,12 +130,14 @@ pub(super) fn notes(judging: &Judging<'_>, receivers: &[ReceiverRuling]) -> Vec<
     let site = judging.site;
     match &judging.rule.receiver {
         RuleReceiver::Area { least_width_m } => {
-            let is_of_faces = |surface: &AreaSurface| matches!(surface, AreaSurface::Faces(_));
-            if *least_width_m > 0.0 && site.areas.iter().any(|area| is_of_faces(&area.surface)) {
-                notes.push(format!(
-                    "parts narrower than {least_width_m} m do not count, but the width of areas that are a component's faces is \
-                     not tested"
-                ));
+            let narrow = |receiver: &ReceiverRuling| {
+                let m2 = receiver.area.map_or(0.0, |area| area.narrow_m2);
+                (m2 > 0.0).then(|| format!("{m2:.2} m² of {:?}", receiver.name))
+            };
+            let narrow: Vec<String> = receivers.iter().filter_map(narrow).collect();
+            if !narrow.is_empty() {
+                let of = few(narrow);
+                notes.push(format!("parts narrower than {least_width_m} m do not count, and are left out: {of}"));
             }
         }
         RuleReceiver::Window { .. } => {
