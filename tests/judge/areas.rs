@@ -95,7 +95,8 @@ fn a_hole_and_a_roof_are_no_ground() {
     ring.rings.push(vec![corner(2.0, 2.0), corner(2.0, 8.0), corner(8.0, 8.0), corner(8.0, 2.0)]);
     let [a, b, c] = [dvec3(0.0, 0.0, 5.0), dvec3(4.0, 0.0, 5.0), dvec3(0.0, 3.0, 9.0)];
     let roof = AreaSurface::Faces(vec![[a, b, c]]);
-    asked.areas = vec![ring, gnomon::site::JudgedArea { name: "roof".into(), rings: Vec::new(), surface: roof }];
+    asked.areas =
+        vec![ring, gnomon::site::JudgedArea { name: "roof".into(), rings: Vec::new(), surface: roof, dwelling: None }];
     let found = judged(&asked, BRE, &[]);
     let m2: Vec<f64> = found.receivers.iter().map(|receiver| receiver.area.expect("an area").m2).collect();
     assert!((m2[0] - 64.0).abs() < 1e-9 && (m2[1] - 10.0).abs() < 1e-9, "{m2:?}");
@@ -150,7 +151,11 @@ fn narrow_parts_are_cut_off() {
     let up = |x: f64, y: f64| dvec3(x, y, 10.0 + x / 2.0);
     let quad = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [[up(a, b), up(c, b), up(c, d)], [up(a, b), up(c, d), up(a, d)]];
     let faces = [quad([0.0, 0.0], [5.0, 8.0]), quad([0.0, 8.0], [1.5, 20.0])].concat();
-    let roof = gnomon::site::JudgedArea { name: "roof".into(), rings: Vec::new(), surface: AreaSurface::Faces(faces) };
+    let roof = gnomon::site::JudgedArea {
+        rings: Vec::new(),
+        surface: AreaSurface::Faces(faces),
+        ..area("roof", [0.0, 0.0], [1.0, 1.0])
+    };
     asked.areas = vec![court, roof, area("plain", [0.0, 0.0], [9.0, 7.0])];
     let found = judged(&asked, "au-vic-b21", &[]);
     let sizes: Vec<[f64; 2]> = found

@@ -35,7 +35,7 @@ fn triangles_cover_a_polygon_with_holes() {
 /// The square metres of an area that are at least 3 m wide, and those that are not.
 fn wide(rings: Vec<Vec<DVec2>>) -> [f64; 2] {
     let receiver = RuleReceiver::Area { least_width_m: 3.0 };
-    let area = JudgedArea { name: "any".into(), rings, surface: AreaSurface::Ground(0.0) };
+    let area = JudgedArea { name: "any".into(), rings, surface: AreaSurface::Ground(0.0), dwelling: None };
     let parts = CountedParts::of(&receiver, &area);
     [parts.m2(), parts.narrow_m2]
 }

@@ -1,10 +1,11 @@
 //! What a rule needs and a site does not have: one error that lists all of it.
 
+use super::open_spaces::of_dwellings;
 use crate::judgement::{CountedParts, needed_of_window};
 use crate::message::few;
 use crate::rules::{
-    CompareWith, CountedTime, Criterion, DwellingShare, Grouping, HeightOver, ResolvedRule, RuleError, RuleNeed,
-    RuleReceiver,
+    CompareWith, CountedTime, Criterion, DwellingShare, Grouping, HeightOver, OpenSpaces, ResolvedRule, RuleError,
+    RuleNeed, RuleReceiver,
 };
 use crate::site::{JudgedArea, JudgedSite};
 use std::collections::BTreeMap;
@@ -67,7 +68,7 @@ fn of_windows(rule: &ResolvedRule, site: &JudgedSite, needs: &mut Vec<RuleNeed>)
         needs.push(RuleNeed::of_key("a window", "[[window]]", ""));
         return;
     }
-    let RuleReceiver::Window { group, all_of, .. } = &rule.receiver else { return };
+    let RuleReceiver::Window { group, all_of, open_spaces, .. } = &rule.receiver else { return };
     let mut lacking: BTreeMap<[&'static str; 2], Vec<String>> = BTreeMap::new();
     for window in &site.windows {
         let mut needed = needed_of_window(&rule.receiver, window);
@@ -92,15 +93,25 @@ fn of_windows(rule: &ResolvedRule, site: &JudgedSite, needs: &mut Vec<RuleNeed>)
         let of = if windows.len() <= MOST_NAMES { windows.join(", ") } else { few(windows) };
         needs.push(RuleNeed::of_key(format!("{what} of window {of}"), "[[window]]", key));
     }
-    of_uses(all_of, site, needs);
+    let spaces = of_dwellings(&rule.receiver, site);
+    of_uses((all_of, open_spaces.as_ref()), (site, &spaces), needs);
 }
 
 /// A dwelling that lacks one of the uses is an error; it does not pass.
-fn of_uses(all_of: &[String], site: &JudgedSite, needs: &mut Vec<RuleNeed>) {
+fn of_uses(
+    (all_of, open_spaces): (&[String], Option<&OpenSpaces>),
+    (site, spaces): (&JudgedSite, &[&JudgedArea]),
+    needs: &mut Vec<RuleNeed>,
+) {
     let mut dwellings: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for window in &site.windows {
         if let (Some(dwelling), Some(usage)) = (&window.dwelling, &window.usage) {
             dwellings.entry(dwelling).or_default().push(usage);
+        }
+    }
+    for (area, of) in spaces.iter().zip(std::iter::repeat(open_spaces)) {
+        if let (Some(dwelling), Some(of)) = (&area.dwelling, of) {
+            dwellings.entry(dwelling).or_default().push(&of.usage);
         }
     }
     for usage in all_of {
@@ -108,7 +119,9 @@ fn of_uses(all_of: &[String], site: &JudgedSite, needs: &mut Vec<RuleNeed>) {
         let without: Vec<String> = without.map(|(name, _)| format!("{name:?}")).collect();
         if !without.is_empty() {
             let of = if without.len() <= MOST_NAMES { without.join(", ") } else { few(without) };
-            needs.push(RuleNeed::of_key(format!("a window of use {usage:?} in dwelling {of}"), "[[window]]", "usage"));
+            let is_open_space = open_spaces.is_some_and(|spaces| spaces.usage == *usage);
+            let what = if is_open_space { "a window or area" } else { "a window" };
+            needs.push(RuleNeed::of_key(format!("{what} of use {usage:?} in dwelling {of}"), "[[window]]", "usage"));
         }
     }
 }

@@ -4,6 +4,7 @@
 //! of an area that keep a demand.
 
 use super::super::StudyError;
+use super::border_points::points_in;
 use super::judging::Steps;
 use crate::judgement::PartTriangle;
 use crate::sun::SunError;
@@ -77,6 +78,17 @@ impl Samples {
             }
         }
         samples
+    }
+
+    /// A point at random in each triangle, with the triangle's square metres.
+    pub(super) fn spot_in_each(&self) -> (Vec<AreaSpot>, Vec<f64>) {
+        let of = |leaf: &Leaf| {
+            let [a, b, c] = leaf.corners.map(|corner| self.spots[corner as usize]);
+            points_in([a.at, b.at, c.at], 0, 1)
+                .map(|at| (AreaSpot { at, normal: a.normal }, leaf.m2))
+                .collect::<Vec<_>>()
+        };
+        self.leaves.iter().flat_map(of).unzip()
     }
 
     /// Halves a triangle as long as its longest side is too long.

@@ -3,6 +3,7 @@
 use super::super::StudyError;
 use super::days::JudgedDays;
 use super::judging::{Judging, Steps};
+use super::open_spaces::of_dwellings;
 use super::receivers::{ShadedReceiver, deciding_day};
 use super::takers::{ShadedPoints, TakerDay, TakerSearch, sort};
 use crate::judgement::{GroupKind, GroupRuling, JudgedThing, ReceiverRuling, Taker};
@@ -140,7 +141,12 @@ pub(super) fn notes(judging: &Judging<'_>, receivers: &[ReceiverRuling]) -> Vec<
                 notes.push(format!("parts narrower than {least_width_m} m do not count, and are left out: {of}"));
             }
         }
-        RuleReceiver::Window { .. } => {
+        receiver @ RuleReceiver::Window { open_spaces, .. } => {
+            let others = site.areas.len() - of_dwellings(receiver, site).len();
+            if open_spaces.is_some() && others > 0 {
+                let areas = if others == 1 { "1 area has".to_owned() } else { format!("{others} areas have") };
+                notes.push(format!("{areas} no dwelling, and this rule does not judge them"));
+            }
             let inside = receivers.iter().any(|receiver| receiver.kind == JudgedThing::Window)
                 && site.windows.iter().any(|window| is_inside(judging, window));
             if inside {
