@@ -6,6 +6,7 @@ mod dwellings;
 mod geometry;
 mod lacking;
 mod openings;
+mod parts;
 mod takers;
 mod windows;
 
@@ -65,7 +66,7 @@ fn endless_wall(name: &str, y: f64, z: f64) -> Part {
 
 fn area(name: &str, [west, south]: [f64; 2], [east, north]: [f64; 2]) -> JudgedArea {
     let ring = vec![dvec2(west, south), dvec2(east, south), dvec2(east, north), dvec2(west, north)];
-    JudgedArea { name: name.to_owned(), rings: vec![ring], surface: AreaSurface::Ground(0.0) }
+    JudgedArea { name: name.to_owned(), rings: vec![ring], surface: AreaSurface::Ground(0.0), dwelling: None }
 }
 
 /// A window 2 m wide and 1.5 m high, its sill's middle at a point.

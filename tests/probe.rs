@@ -3,6 +3,7 @@
 
 mod asked;
 mod sky;
+mod together;
 mod twin;
 
 use crate::shared::drawing::{plan, scene_of};

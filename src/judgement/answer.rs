@@ -78,14 +78,20 @@ pub struct ReceiverRuling {
     pub takers: Vec<Taker>,
 }
 
+/// The probability that a part of an area is farther off than its stated error.
+pub const ERROR_ODDS: f64 = 1e-9;
+
 /// The size of an area, and how it was measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AreaSize {
     /// Square metres.
     pub m2: f64,
+    /// The square metres of what is too narrow to count, in plan. They are not in `m2`.
+    pub narrow_m2: f64,
     /// The number of points at which light was searched.
     pub points: usize,
-    /// The error of the part that keeps the rule, up or down, square metres.
+    /// The error of the part that keeps the rule, up or down, square metres. It is exceeded with a probability of
+    /// [`ERROR_ODDS`] at most.
     pub error_m2: f64,
 }
 

@@ -1,67 +1,71 @@
-//! Finds where an area is narrower than what a rule counts.
+//! What is left of an area without the parts that are too narrow to count.
+//!
+//! The area is shrunk by half of the width and grown again: what is narrower vanishes, and all else comes back as it was.
+//! Corners are kept, down to 45°; the tip of a sharper one is cut off.
 
 use glam::DVec2;
+use i_overlay::core::{fill_rule::FillRule, overlay_rule::OverlayRule};
+use i_overlay::float::single::SingleFloatOverlay;
+use i_overlay::mesh::outline::offset::OutlineOffset;
+use i_overlay::mesh::style::{LineJoin, OutlineStyle};
+use std::f64::consts::FRAC_PI_4;
 
-/// The distance between the places along a border at which the width is measured, metres.
-const SPACING_M: f64 = 0.25;
+/// A width that is measured to a millimetre is not narrow because of its rounding.
+const MEASURED_M: f64 = 1e-3;
 
-/// A corner with a wider angle than this does not make the parts beside it narrow, degrees.
-const SHARP_DEG: f64 = 45.0;
+/// The part of an area that rounding may leave out.
+const ROUNDING: f64 = 1e-6;
 
-/// Finds a place at which an area is narrower than this many metres, and its width there, measured across the area and
-/// square to its border. A corner makes it narrow if it is sharper than 45°.
-pub fn narrow_place(rings: &[Vec<DVec2>], least_m: f64) -> Option<(DVec2, f64)> {
-    if least_m <= 0.0 {
-        return None;
+/// Rings in the form of the crate that cuts them.
+type Contours = Vec<Vec<[f64; 2]>>;
+
+/// The borders of an area's parts that are at least this wide, and the square metres of the others. Borders are
+/// counter-clockwise and holes clockwise, before and after. An area without a narrow part stays as it is.
+pub(super) fn wide_rings(rings: &[Vec<DVec2>], least_m: f64) -> (Vec<Vec<DVec2>>, f64) {
+    let whole: Contours = rings.iter().map(|ring| ring.iter().map(|corner| corner.to_array()).collect()).collect();
+    let half = (least_m - MEASURED_M) / 2.0;
+    if half <= 0.0 {
+        return (rings.to_vec(), 0.0);
     }
-    let sides: Vec<[DVec2; 2]> = rings
+    let by = |offset: f64| OutlineStyle::new(offset).line_join(LineJoin::Miter(FRAC_PI_4));
+    let grown: Contours = flat(flat(whole.outline(&by(-half))).outline(&by(half)));
+    let wide = flat(grown.overlay(&whole, OverlayRule::Intersect, FillRule::NonZero));
+    let narrow_m2 = size_m2(&whole) - size_m2(&wide);
+    match narrow_m2 <= ROUNDING * size_m2(&whole) {
+        true => (rings.to_vec(), 0.0),
+        false => (unflat(wide), narrow_m2),
+    }
+}
+
+/// The borders of several rings together, which may overlap.
+pub(super) fn union(rings: &[Vec<DVec2>]) -> Vec<Vec<DVec2>> {
+    combined(rings, &[], OverlayRule::Subject)
+}
+
+/// What lies within both of two sets of rings.
+pub(super) fn within_both(one: &[Vec<DVec2>], other: &[Vec<DVec2>]) -> Vec<Vec<DVec2>> {
+    combined(one, other, OverlayRule::Intersect)
+}
+
+fn combined(one: &[Vec<DVec2>], other: &[Vec<DVec2>], rule: OverlayRule) -> Vec<Vec<DVec2>> {
+    let [one, other] = [one, other].map(|rings| -> Contours {
+        rings.iter().map(|ring| ring.iter().map(|corner| corner.to_array()).collect()).collect()
+    });
+    unflat(flat(one.overlay(&other, rule, FillRule::NonZero)))
+}
+
+fn flat(shapes: Vec<Contours>) -> Contours {
+    shapes.into_iter().flatten().collect()
+}
+
+fn unflat(contours: Contours) -> Vec<Vec<DVec2>> {
+    contours.into_iter().map(|ring| ring.into_iter().map(DVec2::from_array).collect()).collect()
+}
+
+fn size_m2(contours: &Contours) -> f64 {
+    let cross = |[a, b]: [[f64; 2]; 2]| DVec2::from_array(a).perp_dot(DVec2::from_array(b)) / 2.0;
+    contours
         .iter()
-        .flat_map(|ring| (0..ring.len()).map(|at| [ring[at], ring[(at + 1) % ring.len()]]))
-        .filter(|[from, to]| from.distance(*to) > 1e-6)
-        .collect();
-    // a width that is measured to a millimetre is not narrow because of its rounding
-    let least_m = least_m - 1e-3;
-    let mut narrowest: Option<(DVec2, f64)> = None;
-    for [from, to] in &sides {
-        let along = (to - from).normalize();
-        // the inside is on the left
-        let inward = along.perp();
-        let length = from.distance(*to);
-        let steps = (length / SPACING_M).ceil().clamp(1.0, 1e4);
-        for step in 0..steps as usize {
-            let point = from + along * (length * (step as f64 + 0.5) / steps);
-            for side in &sides {
-                let Some(away) = across(point, inward, side) else { continue };
-                let is_less = away < least_m && narrowest.is_none_or(|(_, least)| away < least);
-                if is_less && !is_blunt_neighbour([from, to], side) {
-                    narrowest = Some((point, away));
-                }
-            }
-        }
-    }
-    narrowest
-}
-
-/// The distance from a point to a side in a direction.
-fn across(point: DVec2, direction: DVec2, [from, to]: &[DVec2; 2]) -> Option<f64> {
-    let side = to - from;
-    let cross = direction.perp_dot(side);
-    if cross.abs() < 1e-12 {
-        return None;
-    }
-    let away = (from - point).perp_dot(side) / cross;
-    let along = (from - point).perp_dot(direction) / cross;
-    (away > 1e-9 && (0.0..=1.0).contains(&along)).then_some(away)
-}
-
-/// Whether two sides meet in a corner that is not sharp.
-fn is_blunt_neighbour([from, to]: [&DVec2; 2], [other_from, other_to]: &[DVec2; 2]) -> bool {
-    let angle_deg = if to == other_from {
-        (from - to).angle_to(other_to - to).abs().to_degrees()
-    } else if from == other_to {
-        (to - from).angle_to(other_from - from).abs().to_degrees()
-    } else {
-        return false;
-    };
-    angle_deg >= SHARP_DEG
+        .map(|ring| (0..ring.len()).map(|at| cross([ring[at], ring[(at + 1) % ring.len()]])).sum::<f64>())
+        .sum()
 }

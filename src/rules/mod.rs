@@ -41,7 +41,7 @@ pub use judge_time::DayLight;
 pub use keys::RULE_KEYS;
 pub use library::{BUILT_IN, built_in_rules, built_in_text, rule_for_site};
 pub use options::{OptionType, OptionValue, RuleOption, duration_text};
-pub use receiver::{Band, CornerRule, DeemedBoundary, Grouping, HeightOver, RuleReceiver, WindowPoint};
+pub use receiver::{Band, CornerRule, DeemedBoundary, Grouping, HeightOver, OpenSpaces, RuleReceiver, WindowPoint};
 pub use resolved::{CompareWith, ResolvedRule, RuleDay};
 pub use rule::{Confidence, Rule, RuleKind, RuleSource};
 pub use spell::{Spell, common, merged, total_secs, without};

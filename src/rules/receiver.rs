@@ -106,6 +106,15 @@ pub struct Band {
     pub to_m: f64,
 }
 
+/// Areas that belong to dwellings.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OpenSpaces {
+    /// Which of the uses in `all_of` they are.
+    pub usage: String,
+    /// How much of one must be lit at a time, square metres; all of it if it is smaller.
+    pub least_lit_m2: f64,
+}
+
 /// What a rule judges.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RuleReceiver {
@@ -128,6 +137,8 @@ pub enum RuleReceiver {
         group: Option<Grouping>,
         /// The uses of a dwelling that must all be lit; empty if the rule knows no uses.
         all_of: Vec<String>,
+        /// The areas that belong to dwellings, if the rule counts them beside windows.
+        open_spaces: Option<OpenSpaces>,
     },
     /// A level plane around a plot.
     Lines {
@@ -154,6 +165,8 @@ impl RuleReceiver {
         "sill",
         "group",
         "all_of",
+        "open_space",
+        "open_space_lit",
         "height",
         "over",
         "deemed",
@@ -174,6 +187,7 @@ impl RuleReceiver {
                 sill_m: metres("sill")?.unwrap_or(0.0),
                 group: table.word("group")?,
                 all_of: table.texts("all_of")?.into_iter().map(str::to_owned).collect(),
+                open_spaces: open_spaces(&table)?,
             },
             ReceiverWord::Lines => RuleReceiver::Lines {
                 height_m: metres("height")?.ok_or_else(|| must("height"))?,
@@ -185,6 +199,21 @@ impl RuleReceiver {
         };
         table.finish()?;
         Ok(receiver)
+    }
+}
+
+/// Reads which use of a dwelling the areas are.
+fn open_spaces(table: &TableReader) -> Result<Option<OpenSpaces>, RuleError> {
+    let usage = table.text("open_space")?;
+    let least_lit_m2 = table.number("open_space_lit", 0.0, 1e6)?;
+    match usage {
+        None if least_lit_m2.is_some() => Err(table.wrong("open_space_lit", "it says nothing without open_space")),
+        Some(usage) if !table.texts("all_of")?.contains(&usage) => {
+            Err(table.wrong("open_space", "it is none of the uses in all_of"))
+        }
+        usage => {
+            Ok(usage.map(|usage| OpenSpaces { usage: usage.to_owned(), least_lit_m2: least_lit_m2.unwrap_or(0.0) }))
+        }
     }
 }
 

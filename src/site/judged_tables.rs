@@ -21,6 +21,8 @@ pub struct AreaTable {
     pub height: Option<f64>,
     /// Metres above the place's point.
     pub level: Option<f64>,
+    /// What the dwelling to which it belongs is called.
+    pub dwelling: Option<String>,
 }
 
 /// `[[window]]`

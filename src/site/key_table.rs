@@ -293,6 +293,9 @@ pub const SITE_KEYS: &[SiteKey] = &[
         .unit("metres")
         .default("none: it follows the ground")
         .means("The height above the place's point of an area that is level wherever the ground lies: a roof terrace, a podium."),
+    key("area", "dwelling", ValueType::Text, "dwelling = \"flat 12\"")
+        .default("none")
+        .means("The dwelling whose open space it is, as of a window. Only rules that judge dwellings ask for it."),
     key("window", "name", ValueType::Text, "name = \"kitchen\"")
         .default("the component's name, or window 1, window 2, …")
         .means("What the verdict calls it; several panes are numbered."),

@@ -3,7 +3,7 @@
 use super::sift::Halfspace;
 use super::sky_cells::SunPyramid;
 use super::sun_path::MOST_OFF_RAD;
-use crate::mesh::Mesh;
+use super::wall_front::WallFront;
 use glam::{DVec3, Vec3, Vec3A};
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
@@ -30,16 +30,17 @@ pub(super) struct SeenBox {
 }
 
 impl FaceTree {
-    pub(super) fn new(mesh: &Mesh) -> FaceTree {
-        let box_of = |face: usize| {
-            let [a, b, c] = mesh.corners(face).map(Vec3A::from);
+    /// The tree over faces, by their corners relative to the mesh's origin.
+    pub(super) fn new(faces: &[[Vec3; 3]]) -> FaceTree {
+        let box_of = |corners: &[Vec3; 3]| {
+            let [a, b, c] = corners.map(Vec3A::from);
             Aabb::new(a.min(b).min(c), a.max(b).max(c))
         };
-        let boxes: Vec<Aabb> = (0..mesh.faces.len()).map(box_of).collect();
+        let boxes: Vec<Aabb> = faces.iter().map(box_of).collect();
         let build = || build_bvh2(&boxes, BvhBuildParams::fast_build(), &mut Duration::default());
         let tree = (!boxes.is_empty()).then(build);
         let order = tree.as_ref().map_or(&[][..], |tree| &tree.primitive_indices);
-        FaceTree { corners: order.iter().map(|&face| mesh.corners(face as usize)).collect(), tree }
+        FaceTree { corners: order.iter().map(|&face| faces[face as usize]).collect(), tree }
     }
 
     /// The box around everything; `None` without faces.
@@ -81,6 +82,11 @@ impl SeenBox {
         radius > 3.0 * away * pyramid.half
     }
 
+    /// Whether it may reach in front of a wall, for the point that sees it.
+    pub(super) fn may_reach(&self, front: &WallFront, point: DVec3) -> bool {
+        front.may_have(self.middle + point, self.half)
+    }
+
     /// The square of its least distance.
     pub(super) fn nearest(&self) -> f64 {
         (self.middle.abs() - self.half).max(DVec3::ZERO).length_squared()
@@ -105,10 +111,14 @@ impl SeenBox {
     }
 }
 
+/// The corners of a face, relative to the probe.
+#[derive(Clone, Copy)]
+pub(super) struct SeenCorners([DVec3; 3]);
+
 /// A face as a probe sees it.
 #[derive(Clone)]
 pub(super) struct SeenFace {
-    pub(super) corners: [DVec3; 3],
+    pub(super) corners: SeenCorners,
     /// Planes through the probe and each side. A ray that hits the face is in front of all three.
     pub(super) sides: [Halfspace; 3],
     /// Whether the probe lies in the face's plane, within rounding. The sides then only exclude rays.
@@ -123,39 +133,25 @@ pub(super) enum SunCoverage {
     Full,
 }
 
-impl SeenFace {
-    pub(super) fn new(corners: &[Vec3; 3], point: DVec3) -> SeenFace {
-        /// More than the rounding error of a product of two lengths.
-        const ROUNDING: f64 = 1e-13;
-        let corners @ [a, b, c] = corners.map(|corner| corner.as_dvec3() - point);
-        let lengths = corners.map(DVec3::length);
-        let volume = a.cross(b).dot(c);
-        let sign = 1f64.copysign(volume);
-        let side = |from: usize, to: usize| Halfspace {
-            normal: corners[from].cross(corners[to]) * sign,
-            slack: ROUNDING * lengths[from] * lengths[to],
-        };
-        SeenFace {
-            corners,
-            sides: [side(0, 1), side(1, 2), side(2, 0)],
-            is_flat: volume.is_nan() || volume.abs() <= ROUNDING * lengths.iter().product::<f64>(),
-        }
+impl SeenCorners {
+    pub(super) fn new(corners: &[Vec3; 3], point: DVec3) -> SeenCorners {
+        SeenCorners(corners.map(|corner| corner.as_dvec3() - point))
     }
 
     /// Whether one of the pyramid's sides separates it from the face.
     pub(super) fn is_beside(&self, pyramid: &SunPyramid) -> bool {
-        pyramid.sides.iter().any(|side| self.corners.iter().all(|corner| side.dot(*corner) < 0.0))
+        pyramid.sides.iter().any(|side| self.0.iter().all(|corner| side.dot(*corner) < 0.0))
     }
 
-    /// The square of its nearest corner's distance.
+    /// The square of the nearest corner's distance.
     pub(super) fn nearest(&self) -> f64 {
-        self.corners.iter().map(|corner| corner.length_squared()).fold(f64::INFINITY, f64::min)
+        self.0.iter().map(|corner| corner.length_squared()).fold(f64::INFINITY, f64::min)
     }
 
     /// As for [`SeenBox::along`].
     pub(super) fn along(&self, pyramid: &SunPyramid) -> [f64; 2] {
         let mut along = [f64::INFINITY, f64::NEG_INFINITY];
-        for corner in &self.corners {
+        for corner in &self.0 {
             let depth = pyramid.axis.dot(*corner);
             if depth <= 0.0 {
                 return [f64::NEG_INFINITY, f64::INFINITY];
@@ -165,10 +161,31 @@ impl SeenFace {
         }
         along
     }
+}
+
+impl SeenFace {
+    pub(super) fn new(corners: SeenCorners) -> SeenFace {
+        /// More than the rounding error of a product of two lengths.
+        const ROUNDING: f64 = 1e-13;
+        let seen = corners;
+        let corners @ [a, b, c] = corners.0;
+        let lengths = corners.map(DVec3::length);
+        let volume = a.cross(b).dot(c);
+        let sign = 1f64.copysign(volume);
+        let side = |from: usize, to: usize| Halfspace {
+            normal: corners[from].cross(corners[to]) * sign,
+            slack: ROUNDING * lengths[from] * lengths[to],
+        };
+        SeenFace {
+            corners: seen,
+            sides: [side(0, 1), side(1, 2), side(2, 0)],
+            is_flat: volume.is_nan() || volume.abs() <= ROUNDING * lengths.iter().product::<f64>(),
+        }
+    }
 
     /// How much of a pyramid's suns it covers.
     pub(super) fn coverage(&self, pyramid: &SunPyramid) -> SunCoverage {
-        if self.is_beside(pyramid) {
+        if self.corners.is_beside(pyramid) {
             return SunCoverage::None;
         }
         if self.is_flat {

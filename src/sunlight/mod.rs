@@ -13,6 +13,7 @@ mod sky_cells;
 mod sky_lines;
 mod sky_raster;
 mod sun_path;
+mod wall_front;
 
 pub use headroom::{Headroom, KeptSeconds, RayHeight, roomiest};
 pub use patches::{Exposure, PatchHours};
@@ -21,3 +22,4 @@ pub use search::{ProbeSearch, SearchedDays};
 pub use sky_lines::{DayWay, HourLine, ProbeWay, SkyLines};
 pub use sky_raster::{SkyCaster, SkyCell, SkyRaster};
 pub use sun_path::SunPath;
+pub use wall_front::WallFront;

@@ -102,7 +102,7 @@ impl Sunlight {
 }
 
 /// Where a probe is judged.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JudgedPoint {
     /// Metres in the world frame.
     pub point: DVec3,

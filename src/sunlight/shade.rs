@@ -1,26 +1,53 @@
 //! Finds the seconds in which faces block the sun from a probe, for all days at once. It descends the cells of the
 //! sky's band, each with only the faces that reach it.
-//! with the faces alone that reach it.
 //!
 //! A cell that no face reaches is lit, and one that a single face fills is dark, without a look at its single days.
 //! What remains are slots of single days. In each, the faces, nearest first, remove the seconds that they certainly
 //! cover, until no second or no face is left. Seconds so close to a face's side that the polynomials cannot decide are
 //! doubtful: the exact ray decides them.
 
-use super::face_tree::{BoxContents, FaceTree, SeenFace, SunCoverage};
+use super::face_tree::{BoxContents, FaceTree, SeenBox, SeenCorners, SeenFace, SunCoverage};
 use super::sift::{Halfspace, Sureness, sift, sift_flat};
 use super::sky_cells::{SunCell, SunCells, SunPyramid};
 use super::sun_path::{MOST_OFF_RAD, SLOT_SECS, Second, SunPath, SunPiece};
+use super::wall_front::WallFront;
 use glam::{DVec3, Vec3};
 use std::ops::Range;
 
 /// What is known about a probe's day.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Shade {
-    /// Runs of seconds, first and last, in which the probe is certainly dark. They are unordered and may overlap.
+    /// Runs of seconds, first and last, in which the probe is certainly dark. As found they are unordered and may
+    /// overlap.
     pub(super) dark: Vec<[Second; 2]>,
     /// Seconds that the exact ray decides, unless they are dark.
     pub(super) doubtful: Vec<Second>,
+}
+
+impl Shade {
+    /// Puts runs into their order, those that touch or overlap joined, and doubtful seconds, too.
+    pub(super) fn put_in_order(&mut self) {
+        self.dark.sort_unstable();
+        self.dark.dedup_by(|next, run| {
+            let joins = next[0] <= run[1] + 1;
+            if joins {
+                run[1] = run[1].max(next[1]);
+            }
+            joins
+        });
+        self.doubtful.sort_unstable();
+        self.doubtful.dedup();
+    }
+
+    /// Adds more shade.
+    pub(super) fn add(&mut self, more: Shade) {
+        if more.dark.is_empty() && more.doubtful.is_empty() {
+            return;
+        }
+        self.dark.extend(more.dark);
+        self.doubtful.extend(more.doubtful);
+        self.put_in_order();
+    }
 }
 
 /// A face or a box of faces that may reach a cell.
@@ -40,23 +67,30 @@ struct Descent<'a> {
     point: DVec3,
     /// The probe's plane, as an obstacle for what is behind it.
     behind: Option<Halfspace>,
+    /// Which faces cast, if not all do.
+    front: Option<WallFront>,
     /// A stack of what may reach the cells from the root to the current one; each cell's candidates follow its
     /// parent's.
     reaching: Vec<Candidate>,
     faces: Vec<SeenFace>,
+    /// For each day, runs of seconds that are known to be dark, in their order; empty if nothing is known.
+    known: &'a [Vec<[Second; 2]>],
     shades: Vec<Shade>,
 }
 
-/// The shade of a probe on each of several days; `point` is relative to the mesh's origin.
+/// The shade of a probe on each of several days; `point` and `front` are relative to the mesh's origin. Seconds that are
+/// known to be dark are passed over: for each day their runs, in their order.
 pub(super) fn shades(
     tree: &FaceTree,
     cells: &SunCells,
     paths: &[SunPath<'_>],
-    (point, normal): (DVec3, Option<DVec3>),
+    (point, normal, front): (DVec3, Option<DVec3>, Option<WallFront>),
+    known: &[Vec<[Second; 2]>],
 ) -> Vec<Shade> {
     let behind = normal.map(|normal| Halfspace { normal: -normal, slack: 1e-15 });
     let shades = vec![Shade::default(); paths.len()];
-    let mut descent = Descent { tree, cells, paths, point, behind, reaching: Vec::new(), faces: Vec::new(), shades };
+    let (reaching, faces) = (Vec::new(), Vec::new());
+    let mut descent = Descent { tree, cells, paths, point, behind, front, reaching, faces, known, shades };
     descent.reaching.extend(tree.root().map(Candidate::Box));
     if let Some(root) = cells.root {
         descent.descend(root, 0, normal.is_none());
@@ -68,6 +102,9 @@ impl<'a> Descent<'a> {
     /// Visits a cell. Its parent's candidates begin at index `from`.
     fn descend(&mut self, cell: u32, from: usize, mut is_before: bool) {
         let cell: &'a SunCell = &self.cells.cells[cell as usize];
+        if self.is_known(cell) {
+            return;
+        }
         let (to, faces) = (self.reaching.len(), self.faces.len());
         let mut start = from;
         if let Some(pyramid) = &cell.pyramid {
@@ -105,6 +142,16 @@ impl<'a> Descent<'a> {
         self.faces.truncate(faces);
     }
 
+    /// Whether all of a cell is known to be dark.
+    fn is_known(&self, cell: &SunCell) -> bool {
+        let [first, last] = [cell.slots.start * SLOT_SECS, cell.slots.end * SLOT_SECS - 1];
+        let covers = |runs: &Vec<[Second; 2]>| {
+            let at = runs.partition_point(|run| run[1] < last);
+            runs.get(at).is_some_and(|run| run[0] <= first)
+        };
+        !self.known.is_empty() && self.known[cell.days.clone()].iter().all(covers)
+    }
+
     /// Marks a whole cell as dark.
     fn darken(&mut self, cell: &SunCell) {
         let run = [cell.slots.start * SLOT_SECS, cell.slots.end * SLOT_SECS - 1];
@@ -127,7 +174,7 @@ impl<'a> Descent<'a> {
             }
             while let Some(at) = open.pop() {
                 let seen = self.tree.seen(at, self.point);
-                if seen.is_outside(pyramid) {
+                if seen.is_outside(pyramid) || !self.may_cast(&seen) {
                     continue;
                 }
                 if !seen.is_large(pyramid) {
@@ -147,9 +194,21 @@ impl<'a> Descent<'a> {
         false
     }
 
+    /// Whether any face within a box may cast.
+    fn may_cast(&self, seen: &SeenBox) -> bool {
+        self.front.is_none_or(|front| seen.may_reach(&front, self.point))
+    }
+
     /// Adds a face if it reaches a pyramid. Returns whether it fills it.
     fn add_face(&mut self, corners: &[Vec3; 3], pyramid: &SunPyramid) -> bool {
-        let face = SeenFace::new(corners, self.point);
+        if self.front.is_some_and(|front| !front.has(corners)) {
+            return false;
+        }
+        let corners = SeenCorners::new(corners, self.point);
+        if corners.is_beside(pyramid) {
+            return false;
+        }
+        let face = SeenFace::new(corners);
         let coverage = face.coverage(pyramid);
         if coverage == SunCoverage::Part {
             self.reaching.push(Candidate::Face(self.faces.len() as u32));
@@ -162,13 +221,16 @@ impl<'a> Descent<'a> {
     fn look_at_slot(&mut self, cell: &SunCell, pyramid: &SunPyramid, reaching: Range<usize>, is_before: bool) {
         let path = &self.paths[cell.days.start];
         let shade = &mut self.shades[cell.days.start];
-        let (tree, point, faces) = (self.tree, self.point, &self.faces);
+        let (tree, point, front, faces) = (self.tree, self.point, self.front, &self.faces);
         let mut open = OpenSeconds::new(path, cell.slots.start, pyramid);
+        if let Some(known) = self.known.get(cell.days.start) {
+            open.pass_over(known);
+        }
         if let Some(behind) = self.behind.filter(|_| !is_before) {
             open.take(&[behind], [f64::NEG_INFINITY, f64::INFINITY], shade);
         }
         let far = |reaching: Candidate| match reaching {
-            Candidate::Face(face) => (faces[face as usize].nearest(), reaching),
+            Candidate::Face(face) => (faces[face as usize].corners.nearest(), reaching),
             Candidate::Box(at) => (tree.seen(at, point).nearest(), reaching),
         };
         let mut left: Vec<(f64, Candidate)> = self.reaching[reaching].iter().map(|reaching| far(*reaching)).collect();
@@ -180,7 +242,7 @@ impl<'a> Descent<'a> {
             }
             let at = match next {
                 Candidate::Face(face) => {
-                    open.shade(&faces[face as usize], shade);
+                    open.shade(faces[face as usize].corners, Some(&faces[face as usize]), shade);
                     continue;
                 }
                 Candidate::Box(at) => at,
@@ -198,7 +260,8 @@ impl<'a> Descent<'a> {
                     left.extend(two);
                 }
                 BoxContents::Faces(faces) => {
-                    faces.iter().for_each(|corners| open.shade(&SeenFace::new(corners, point), shade));
+                    let casting = faces.iter().filter(|corners| front.is_none_or(|front| front.has(corners)));
+                    casting.for_each(|corners| open.shade(SeenCorners::new(corners, point), None, shade));
                 }
             }
         }
@@ -236,17 +299,41 @@ impl<'a> OpenSeconds<'a> {
         self.runs.iter().any(|(_, along, _)| along[0] <= high && low <= along[1])
     }
 
-    /// Removes what a face covers.
-    fn shade(&mut self, face: &SeenFace, shade: &mut Shade) {
-        if face.is_beside(self.pyramid) {
+    /// Removes runs of seconds, which are in their order.
+    fn pass_over(&mut self, known: &[[Second; 2]]) {
+        let whole = std::mem::take(&mut self.runs);
+        for ([first, last], _, piece) in whole {
+            let from = known.partition_point(|run| run[1] < first);
+            let within = known[from..].iter().take_while(|run| run[0] <= last);
+            let covered: Vec<[Second; 2]> = within.map(|run| [run[0].max(first), run[1].min(last)]).collect();
+            let left: Vec<_> = without([first, last], &covered).map(|seconds| self.run(seconds, piece)).collect();
+            self.runs.extend(left);
+        }
+    }
+
+    /// Removes what a face covers; `face` if it is known already.
+    fn shade(&mut self, corners: SeenCorners, face: Option<&SeenFace>, shade: &mut Shade) {
+        if corners.is_beside(self.pyramid) {
             return;
         }
+        let along = corners.along(self.pyramid);
+        if !self.reaches(along) {
+            return;
+        }
+        let own;
+        let face = match face {
+            Some(face) => face,
+            None => {
+                own = SeenFace::new(corners);
+                &own
+            }
+        };
         if face.is_flat {
             for (seconds, _, piece) in &self.runs {
                 sift_flat(&face.sides, piece, *seconds, &mut |second| shade.doubtful.push(second));
             }
         } else {
-            self.take(&face.sides, face.along(self.pyramid), shade);
+            self.take(&face.sides, along, shade);
         }
     }
 

@@ -1,7 +1,7 @@
 //! Finds the seconds at which several polynomials of time are all positive: certainly, certainly not, or so close to 0
 //! that the exact ray decides.
 
-use super::sun_path::{Polynomial, Second, SunPiece};
+use super::sun_path::{DEGREE, Polynomial, Second, SunPiece};
 use glam::DVec3;
 
 /// What is known about some seconds.
@@ -31,6 +31,8 @@ struct BoundedPolynomial {
 }
 
 impl BoundedPolynomial {
+    const ZERO: BoundedPolynomial = BoundedPolynomial { of: [0.0; DEGREE + 1], tolerance: 0.0, bulge: 0.0 };
+
     fn new(halfspace: &Halfspace, piece: &SunPiece) -> BoundedPolynomial {
         let of = piece.to_sun.map(|part| halfspace.normal.dot(part));
         let curved = of.iter().enumerate().map(|(power, part)| (power * power.saturating_sub(1)) as f64 * part.abs());
@@ -58,9 +60,20 @@ pub(super) fn sift<const N: usize>(
     [first, last]: [Second; 2],
     found: &mut impl FnMut(Sureness, Second, Second),
 ) {
-    let bounded = halfspaces.each_ref().map(|halfspace| BoundedPolynomial::new(halfspace, piece));
-    let at = |second: Second| bounded.each_ref().map(|function| function.at(piece.unit(second)));
-    split(&bounded, piece, ([first, last], [at(first), at(last)]), found);
+    let units = f64::from(last - first) / piece.unit_secs;
+    let mut bounded = [BoundedPolynomial::ZERO; N];
+    let mut values = [[0.0; N]; 2];
+    for (number, halfspace) in halfspaces.iter().enumerate() {
+        let function = BoundedPolynomial::new(halfspace, piece);
+        let ends = [first, last].map(|second| function.at(piece.unit(second)));
+        // most faces that are tried are missed, and one side tells
+        if function.range(ends, units)[1] < -function.tolerance {
+            return;
+        }
+        bounded[number] = function;
+        [values[0][number], values[1][number]] = ends;
+    }
+    split(&bounded, piece, ([first, last], values), found);
 }
 
 fn split<const N: usize>(

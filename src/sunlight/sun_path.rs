@@ -10,6 +10,7 @@ use crate::sun::{Air, DayWindow, Instant, Place, Sky, SunError, delta_t_secs};
 use chrono::{DateTime, NaiveTime, TimeDelta, Utc};
 use glam::DVec3;
 use std::ops::RangeInclusive;
+use std::sync::OnceLock;
 
 /// Pieces are cut at multiples of this many seconds since the day's mean solar midnight.
 pub(super) const SLOT_SECS: i32 = 3840;
@@ -47,6 +48,16 @@ pub(super) struct SunPiece {
     pub(super) off_rad: f64,
 }
 
+/// The exact sun, as rays need it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ExactSun {
+    pub(super) to_sun: DVec3,
+    pub(super) night: bool,
+}
+
+/// The exact suns of a day that were computed so far, one for each second.
+type KnownSuns = OnceLock<Box<[OnceLock<ExactSun>]>>;
+
 /// The sun's path of a day.
 pub struct SunPath<'a> {
     sky: Sky<'a>,
@@ -58,6 +69,8 @@ pub struct SunPath<'a> {
     pub(super) up_secs: Vec<RangeInclusive<Second>>,
     /// In order of time; together they cover `up`.
     pub(super) pieces: Vec<SunPiece>,
+    /// `None` if exact suns are not kept.
+    known: Option<KnownSuns>,
 }
 
 impl<'a> SunPath<'a> {
@@ -70,7 +83,7 @@ impl<'a> SunPath<'a> {
         let up = up(&sky, window)?;
         let mean_solar = TimeDelta::seconds((place.longitude_deg * 240.0) as i64);
         let base = window.day.date.and_time(NaiveTime::MIN).and_utc() - mean_solar;
-        let mut path = SunPath { sky, window, base, up, up_secs: Vec::new(), pieces: Vec::new() };
+        let mut path = SunPath { sky, window, base, up, up_secs: Vec::new(), pieces: Vec::new(), known: None };
         path.up_secs = path.up.iter().map(|interval| path.seconds(interval)).collect();
         for up in path.up_secs.clone() {
             let mut first = *up.start();
@@ -81,6 +94,12 @@ impl<'a> SunPath<'a> {
             }
         }
         Ok(path)
+    }
+
+    /// The same path. It keeps the exact suns that it computes, a megabyte or two, as most are asked for again if there
+    /// are many points.
+    pub(super) fn keeping_suns(self) -> SunPath<'a> {
+        SunPath { known: Some(OnceLock::new()), ..self }
     }
 
     /// The seconds of the window, its end included.
@@ -107,8 +126,20 @@ impl<'a> SunPath<'a> {
     }
 
     /// The exact sun at a second.
-    pub(super) fn exact(&self, second: Second) -> Result<Instant, SunError> {
-        self.sky.at(self.time(second))
+    pub(super) fn exact(&self, second: Second) -> Result<ExactSun, SunError> {
+        let asked = self.asked();
+        let suns =
+            self.known.as_ref().map(|known| known.get_or_init(|| asked.clone().map(|_| OnceLock::new()).collect()));
+        let slot = suns.and_then(|suns| suns.get(usize::try_from(second - asked.start()).ok()?));
+        if let Some(known) = slot.and_then(OnceLock::get) {
+            return Ok(*known);
+        }
+        let sun = ExactSun::from(&self.sky.at(self.time(second))?);
+        if let Some(slot) = slot {
+            // if another thread was faster, it found the same
+            let _ = slot.set(sun);
+        }
+        Ok(sun)
     }
 
     /// The exact direction a fraction of time after a second.
@@ -149,6 +180,12 @@ impl<'a> SunPath<'a> {
         }
         self.pieces.push(piece);
         Ok(())
+    }
+}
+
+impl From<&Instant> for ExactSun {
+    fn from(instant: &Instant) -> ExactSun {
+        ExactSun { to_sun: instant.to_sun, night: instant.night }
     }
 }
 

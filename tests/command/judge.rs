@@ -69,6 +69,7 @@ fn json_has_what_a_verdict_rests_on() {
     assert_eq!((&receiver["kind"], &receiver["share_limit"]), (&"area".into(), &0.5.into()));
     let number = |key: &str| receiver[key].as_f64().unwrap_or_else(|| panic!("{key}: {receiver}"));
     assert!((number("share_margin") - (number("share") - 0.5)).abs() < 1e-12);
+    assert_eq!(number("share_error_odds"), 1e-9);
     assert!(number("share_error") <= 0.001 && (number("share_before") - 1.0).abs() < 1e-9, "{receiver}");
     assert_eq!(receiver["takes"][0]["component"], "tower");
     // the point's seconds are those of its spells

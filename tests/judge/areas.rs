@@ -95,7 +95,8 @@ fn a_hole_and_a_roof_are_no_ground() {
     ring.rings.push(vec![corner(2.0, 2.0), corner(2.0, 8.0), corner(8.0, 8.0), corner(8.0, 2.0)]);
     let [a, b, c] = [dvec3(0.0, 0.0, 5.0), dvec3(4.0, 0.0, 5.0), dvec3(0.0, 3.0, 9.0)];
     let roof = AreaSurface::Faces(vec![[a, b, c]]);
-    asked.areas = vec![ring, gnomon::site::JudgedArea { name: "roof".into(), rings: Vec::new(), surface: roof }];
+    asked.areas =
+        vec![ring, gnomon::site::JudgedArea { name: "roof".into(), rings: Vec::new(), surface: roof, dwelling: None }];
     let found = judged(&asked, BRE, &[]);
     let m2: Vec<f64> = found.receivers.iter().map(|receiver| receiver.area.expect("an area").m2).collect();
     assert!((m2[0] - 64.0).abs() < 1e-9 && (m2[1] - 10.0).abs() < 1e-9, "{m2:?}");
@@ -133,10 +134,48 @@ fn victoria_takes_the_lesser_of_share_and_square_metres() {
     // 40 m² of a court of 3 m are more than it has behind the fence
     asked.areas = vec![area("strip", [0.0, -3.0], [10.0, 0.0])];
     assert_eq!(judged(&asked, "au-vic-b21", &[]).verdict, Verdict::Fail);
-    // what is narrower than 3 m does not count, and nobody cuts it off in silence
+    // what is narrower than 3 m does not count
     asked.areas = vec![area("passage", [0.0, -2.9], [10.0, 0.0])];
     let refused = tried(&asked, "au-vic-b21", &[]).expect_err("too narrow").to_string();
-    assert!(refused.contains("passage") && refused.contains("2.90 m wide"), "{refused}");
+    assert!(refused.contains("passage") && refused.contains("3 m wide"), "{refused}");
+}
+
+/// A passage beside a court is cut off, and what is left out is said; so it is of a component's faces.
+#[test]
+fn narrow_parts_are_cut_off() {
+    let melbourne = Place::new("", -37.81, 144.96, 0.0, Some("Australia/Melbourne")).expect("a place");
+    let mut asked = site(melbourne, vec![nothing()], Some(vec![nothing()]));
+    let ring = [[0.0, 0.0], [10.0, 0.0], [10.0, 1.5], [5.0, 1.5], [5.0, 8.0], [0.0, 8.0]].map(|[x, y]| corner(x, y));
+    let court = gnomon::site::JudgedArea { rings: vec![ring.to_vec()], ..area("court", [0.0, 0.0], [1.0, 1.0]) };
+    // a roof that rises by 1 on 2 to the east: 5 m wide, and 1.5 m beyond y = 8
+    let up = |x: f64, y: f64| dvec3(x, y, 10.0 + x / 2.0);
+    let quad = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [[up(a, b), up(c, b), up(c, d)], [up(a, b), up(c, d), up(a, d)]];
+    let faces = [quad([0.0, 0.0], [5.0, 8.0]), quad([0.0, 8.0], [1.5, 20.0])].concat();
+    let roof = gnomon::site::JudgedArea {
+        rings: Vec::new(),
+        surface: AreaSurface::Faces(faces),
+        ..area("roof", [0.0, 0.0], [1.0, 1.0])
+    };
+    asked.areas = vec![court, roof, area("plain", [0.0, 0.0], [9.0, 7.0])];
+    let found = judged(&asked, "au-vic-b21", &[]);
+    let sizes: Vec<[f64; 2]> = found
+        .receivers
+        .iter()
+        .map(|receiver| receiver.area.expect("an area"))
+        .map(|of| [of.m2, of.narrow_m2])
+        .collect();
+    let slope = (1.0f64 + 0.25).sqrt();
+    let expected = [[40.0, 7.5], [40.0 * slope, 18.0], [63.0, 0.0]];
+    for (found, expected) in sizes.iter().zip(expected) {
+        assert!((found[0] - expected[0]).abs() < 0.01 && (found[1] - expected[1]).abs() < 0.01, "{sizes:?}");
+    }
+    assert_eq!(sizes[2], [63.0, 0.0]);
+    let said: Vec<String> = found.notes.iter().map(ToString::to_string).collect();
+    let narrow = "narrower than 3 m do not count, and are left out: 7.50 m² of \"court\" and 18.00 m² of \"roof\"";
+    assert!(said.iter().any(|note| note.contains(narrow)), "{said:?}");
+    // no rule without a width cuts anything
+    let whole = judged(&asked, BRE, &[]);
+    assert!((whole.receivers[0].area.expect("an area").m2 - 47.5).abs() < 1e-9);
 }
 
 /// A slab over everything takes all the sun there is.

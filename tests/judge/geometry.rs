@@ -2,9 +2,9 @@
 
 use super::corner;
 use glam::DVec2;
-use gnomon::judgement::{DeemedBorder, LitSpell, SpellBound, both, clipped, narrow_place, triangles};
-use gnomon::rules::{Band, CornerRule, DeemedBoundary, Spell};
-use gnomon::site::{JudgedPlot, PlotSide};
+use gnomon::judgement::{CountedParts, DeemedBorder, LitSpell, SpellBound, both, clipped, triangles};
+use gnomon::rules::{Band, CornerRule, DeemedBoundary, RuleReceiver, Spell};
+use gnomon::site::{AreaSurface, JudgedArea, JudgedPlot, PlotSide};
 
 fn rectangle([west, south]: [f64; 2], [east, north]: [f64; 2]) -> Vec<DVec2> {
     vec![corner(west, south), corner(east, south), corner(east, north), corner(west, north)]
@@ -32,27 +32,55 @@ fn triangles_cover_a_polygon_with_holes() {
     assert!(triangles(&[]).is_empty());
 }
 
+/// The square metres of an area that are at least 3 m wide, and those that are not.
+fn wide(rings: Vec<Vec<DVec2>>) -> [f64; 2] {
+    let receiver = RuleReceiver::Area { least_width_m: 3.0 };
+    let area = JudgedArea { name: "any".into(), rings, surface: AreaSurface::Ground(0.0), dwelling: None };
+    let parts = CountedParts::of(&receiver, &area);
+    [parts.m2(), parts.narrow_m2]
+}
+
 #[test]
-fn narrow_places_are_found() {
-    assert_eq!(narrow_place(&[rectangle([0.0, 0.0], [3.0, 10.0])], 3.0), None);
-    let (_, wide) = narrow_place(&[rectangle([0.0, 0.0], [2.5, 10.0])], 3.0).expect("narrow");
-    assert!((wide - 2.5).abs() < 1e-9);
-    // a passage beside a court
-    let court = vec![
-        corner(0.0, 0.0),
-        corner(10.0, 0.0),
-        corner(10.0, 1.5),
-        corner(5.0, 1.5),
-        corner(5.0, 8.0),
-        corner(0.0, 8.0),
+fn narrow_parts_are_cut_and_corners_are_kept() {
+    let near = |[wide, narrow]: [f64; 2], expected: [f64; 2]| {
+        assert!(
+            (wide - expected[0]).abs() < 0.01 && (narrow - expected[1]).abs() < 0.01,
+            "{wide} {narrow} {expected:?}"
+        );
+    };
+    assert_eq!(wide(vec![rectangle([0.0, 0.0], [3.0, 10.0])]), [30.0, 0.0]);
+    assert_eq!(wide(vec![rectangle([0.0, 0.0], [2.99, 10.0])]), [0.0, 2.99 * 10.0]);
+    let corners = |of: &[[f64; 2]]| of.iter().map(|[x, y]| corner(*x, *y)).collect::<Vec<_>>();
+    // two courts with a passage of 2 m between them
+    let courts = [
+        [0.0, 0.0],
+        [6.0, 0.0],
+        [6.0, 2.0],
+        [12.0, 2.0],
+        [12.0, 0.0],
+        [18.0, 0.0],
+        [18.0, 6.0],
+        [12.0, 6.0],
+        [12.0, 4.0],
+        [6.0, 4.0],
+        [6.0, 6.0],
+        [0.0, 6.0],
     ];
-    let (at, wide) = narrow_place(&[court], 3.0).expect("narrow");
-    assert!((wide - 1.5).abs() < 1e-9 && at.x > 5.0, "{at} {wide}");
-    // a corner of 80° is none
-    let leaning = vec![corner(0.0, 0.0), corner(10.0, 0.0), corner(10.0, 8.0), corner(1.4, 8.0)];
-    assert_eq!(narrow_place(&[leaning], 3.0), None);
-    let tip = vec![corner(0.0, 0.0), corner(20.0, 0.0), corner(20.0, 6.0)];
-    assert!(narrow_place(&[tip], 3.0).is_some());
+    near(wide(vec![corners(&courts)]), [72.0, 12.0]);
+    // far from the place
+    let far = |ring: &[[f64; 2]]| corners(&ring.iter().map(|[x, y]| [x + 45e3, y - 45e3]).collect::<Vec<_>>());
+    near(wide(vec![far(&courts)]), [72.0, 12.0]);
+    // a pond a metre from two sides
+    let pond: Vec<DVec2> = rectangle([1.0, 1.0], [4.0, 4.0]).into_iter().rev().collect();
+    near(wide(vec![rectangle([0.0, 0.0], [10.0, 10.0]), pond]), [84.0, 7.0]);
+    // arms of 4 m, and a corner of 80°
+    let ell = [[0.0, 0.0], [10.0, 0.0], [10.0, 4.0], [4.0, 4.0], [4.0, 10.0], [0.0, 10.0]];
+    assert_eq!(wide(vec![corners(&ell)]), [64.0, 0.0]);
+    let leaning = [[0.0, 0.0], [10.0, 0.0], [10.0, 8.0], [1.4, 8.0]];
+    assert_eq!(wide(vec![corners(&leaning)])[1], 0.0);
+    // the tip of a corner of 17° is cut off, and never more than is narrower
+    let [kept, cut] = wide(vec![corners(&[[0.0, 0.0], [20.0, 0.0], [20.0, 6.0]])]);
+    assert!((kept + cut - 60.0).abs() < 1e-6 && cut > 5.0 && cut < 15.0, "{kept} {cut}");
 }
 
 /// A road of 6, 12 and 14 m moves the border by 3, 7 and 9 m.

@@ -56,7 +56,10 @@ fn the_keys_that_would_say_it_are_named_once() {
     asked.areas = vec![area("strip", [0.0, 0.0], [9.0, 1.0])];
     asked.before = Some(super::state(vec![nothing()]));
     let error = tried(&asked, "au-vic-b21", &[]).expect_err("too narrow");
-    assert!(error.to_string().contains("m wide and parts narrower") && !error.to_string().contains("add "), "{error}");
+    assert!(
+        error.to_string().contains("at least 3 m wide in area \"strip\"") && !error.to_string().contains("add "),
+        "{error}"
+    );
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Windows and façades behind an endless wall.
 
-use super::{beijing, endless_wall, judged, nothing, over_wall, secs, site, value_secs, window};
+use super::{beijing, endless_wall, judged, london, nothing, over_wall, secs, site, value_secs, window};
 use glam::{DVec3, dvec3};
 use gnomon::judgement::{JudgedThing, SpellBound};
 use gnomon::rules::Verdict;
@@ -122,4 +122,17 @@ fn before_and_after_are_told() {
     let open = secs(&asked.place, &found.days[0], |sun| sun.y < 0.0);
     assert!(count.before_secs.is_some_and(|before| (before - open).abs() <= 2), "{count:?} {open}");
     assert_eq!(count.now_secs, value_secs(&found.receivers[0]));
+}
+
+/// Numbers that are equal, but not alike: 0 and −0.
+#[test]
+fn walls_that_differ_by_the_sign_of_a_zero() {
+    let mut asked = site(london(), vec![nothing()], None);
+    asked.windows = vec![
+        window("one", dvec3(0.0, 0.0, 1.0), dvec3(0.0, -1.0, 0.0)),
+        window("other", dvec3(9.0, 0.0, 1.0), dvec3(-0.0, -1.0, -0.0)),
+    ];
+    let found = judged(&asked, "nl-tno-light", &[]);
+    let secs: Vec<i64> = found.receivers.iter().map(value_secs).collect();
+    assert_eq!(secs[0], secs[1]);
 }

@@ -21,7 +21,8 @@ fn a_polygon_as_meant() {
         "[[0, 30], [10, 30], [10, 30], [10, 20], [0, 20], [0, 30]]",
     ] {
         let site = judged(&area(corners));
-        let [JudgedArea { name, rings, surface: AreaSurface::Ground(above) }] = site.areas.as_slice() else {
+        let [JudgedArea { name, rings, surface: AreaSurface::Ground(above), dwelling: None }] = site.areas.as_slice()
+        else {
             panic!("{:?}", site.areas)
         };
         assert_eq!((name.as_str(), *above, rings.len()), ("Garden", 0.0, 1));

@@ -6,7 +6,7 @@ use super::numbers::{
     CHECK, blocker, component_name, date_of, deciding, least_counted, number, secs_of, share_of, time,
 };
 use super::rule_report::{RuleReport, SettledReport, rule_report, settled_report};
-use crate::judgement::{GroupRuling, Judgement, LitSpell, ReceiverRuling, ReceiverSpells, Taker};
+use crate::judgement::{ERROR_ODDS, GroupRuling, Judgement, LitSpell, ReceiverRuling, ReceiverSpells, Taker};
 use crate::message::{Message, Words};
 use crate::rules::{Finding, Quantity, Ruling, Spell};
 use crate::site::{JudgedSite, JudgedState};
@@ -76,6 +76,7 @@ struct ReceiverReport<'a> {
     before_secs: Option<i64>,
     difference_secs: Option<i64>,
     area_m2: Option<f64>,
+    narrow_m2: Option<f64>,
     area_points: Option<usize>,
     share: Option<f64>,
     share_limit: Option<f64>,
@@ -83,6 +84,7 @@ struct ReceiverReport<'a> {
     share_before: Option<f64>,
     share_difference: Option<f64>,
     share_error: Option<f64>,
+    share_error_odds: Option<f64>,
     excuse: Option<String>,
     worst: WorstReport,
     points: Vec<[f64; 3]>,
@@ -160,13 +162,15 @@ const MOST_TOLD: usize = 8;
 /// - `days`, each with its date, its verdict over all receivers, and the counted `windows`, with those of each criterion
 ///   (null if it is bound to other days);
 /// - `receivers`: the deciding number with its limit, its margin (negative if it is missed), the number before and the
-///   difference, in seconds or, for areas, as a share of the area with the error `share_error`; the `worst` day and point;
+///   difference, in seconds or, for areas, as a share of the area with the error `share_error`, which is exceeded with a
+///   probability of at most `share_error_odds`; the `worst` day and point;
 ///   what is counted on each day (`seconds_by_day`, in the order of `days`); the `findings` of each criterion on each day
 ///   (only the deciding one if there are more than 8 days); the spells of the same days at the point, also in the state
 ///   before (`start` is the first second in the sun, `end` the first after it; `before` and `after` say what blocks);
 ///   `open`, when a sun that counts would shine with nothing in its way; and, if it does not pass, `takes`: the seconds of
 ///   the deciding day that each component takes alone (`secs`) and together with others, for an area as the mean over
 ///   points that do not keep the demand;
+///   of an area its size (`area_m2`), without what is too narrow to count (`narrow_m2`);
 /// - `groups`: rooms, dwellings and the house;
 /// - `notes` as in `profile.json`, with those on how it was judged.
 ///
@@ -256,6 +260,7 @@ fn receiver_report<'a>(judgement: &'a Judgement, site: &JudgedSite, of: &'a Rece
         before_secs: secs_of(before),
         difference_secs: secs_of(value).zip(secs_of(before)).map(|(now, before)| now - before),
         area_m2: m2,
+        narrow_m2: of.area.map(|area| area.narrow_m2),
         area_points: of.area.map(|area| area.points),
         share: share(value),
         share_limit: share(limit),
@@ -263,6 +268,7 @@ fn receiver_report<'a>(judgement: &'a Judgement, site: &JudgedSite, of: &'a Rece
         share_before: share(before),
         share_difference: share(value).zip(share(before)).map(|(now, before)| now - before),
         share_error: of.area.filter(|_| share(value).is_some()).map(|area| area.error_m2 / area.m2),
+        share_error_odds: of.area.filter(|_| share(value).is_some()).map(|_| ERROR_ODDS),
         excuse: finding.and_then(|finding| finding.excuse).map(super::numbers::excuse),
         worst: WorstReport {
             date: date_of(judgement, of).map(|date| date.to_string()),

@@ -4,9 +4,9 @@ use super::super::names::plain;
 use super::super::probe::{clock, triple};
 use super::numbers::{CHECK, component_name, date_of, deciding, excuse, least_counted};
 use super::rule_report::clock_word;
-use crate::judgement::{GroupRuling, Judgement, ReceiverRuling, Taker};
+use crate::judgement::{ERROR_ODDS, GroupRuling, Judgement, ReceiverRuling, Taker};
 use crate::message::few;
-use crate::rules::{Finding, Quantity, Verdict};
+use crate::rules::{Finding, Quantity, RuleReceiver, Verdict};
 use crate::site::JudgedSite;
 use std::fmt::Write;
 
@@ -167,9 +167,15 @@ fn rests_on(text: &mut String, judgement: &Judgement, site: &JudgedSite) {
     let _ = writeln!(text, "judged: {days}; {} clock", clock_word(judgement.rule.clock.clock));
     let refraction = if site.refraction { "with" } else { "without" };
     let _ = writeln!(text, "the sun {refraction} the air's refraction; ground at {}", site.now.ground.said());
-    let worst = judgement.receivers.iter().filter_map(|receiver| receiver.area).map(|area| area.error_m2 / area.m2);
+    let is_of_areas = matches!(judgement.rule.receiver, RuleReceiver::Area { .. });
+    let areas = judgement.receivers.iter().filter_map(|receiver| receiver.area).filter(|_| is_of_areas);
+    let worst = areas.map(|area| area.error_m2 / area.m2);
     if let Some(error) = worst.max_by(f64::total_cmp) {
-        let _ = writeln!(text, "parts of areas are known to {:.2} % of the area; spells to the second", 100.0 * error);
+        let (percent, areas) = (100.0 * error, 1.0 / ERROR_ODDS);
+        let _ = writeln!(
+            text,
+            "parts of areas are known to ±{percent:.2} % of the area (farther off once in {areas:.0e} areas); spells to the second"
+        );
     } else {
         let _ = writeln!(text, "spells to the second");
     }

@@ -6,7 +6,7 @@ use super::search::{BlockedRay, FirstHit};
 use super::shear::Shear;
 use super::tree::WideTree;
 use crate::mesh::Mesh;
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 /// Casts rays at one mesh. Points and directions are relative to the mesh's origin.
 #[doc(hidden)]
@@ -36,12 +36,27 @@ impl RayCaster {
     /// Returns the nearest face along a ray, and its distance in lengths of `direction`; of equally near ones the
     /// first.
     pub fn first_hit(&self, origin: DVec3, direction: DVec3) -> Option<(u32, f64)> {
-        self.level.run(FirstHit { tree: &self.tree, shear: &Shear::along(direction), origin })
+        self.first_hit_of(origin, direction, |_| true)
+    }
+
+    /// The same among those faces that are kept, by their corners.
+    pub fn first_hit_of(
+        &self,
+        origin: DVec3,
+        direction: DVec3,
+        keep: impl Fn(&[Vec3; 3]) -> bool,
+    ) -> Option<(u32, f64)> {
+        self.level.run(FirstHit { tree: &self.tree, shear: &Shear::along(direction), origin, keep })
     }
 
     /// Whether anything is in the way of a ray.
     pub fn blocked(&self, origin: DVec3, shear: &Shear) -> bool {
-        self.level.run(BlockedRay { tree: &self.tree, shear, origin })
+        self.blocked_of(origin, shear, |_| true)
+    }
+
+    /// The same for those faces that are kept, by their corners.
+    pub fn blocked_of(&self, origin: DVec3, shear: &Shear, keep: impl Fn(&[Vec3; 3]) -> bool) -> bool {
+        self.level.run(BlockedRay { tree: &self.tree, shear, origin, keep })
     }
 
     /// Returns which of up to [`RayCaster::MOST_RAYS`] parallel rays are blocked: a bit for each. Rays that are close

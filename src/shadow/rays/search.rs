@@ -6,7 +6,7 @@ use super::prune::FlatTriangles;
 use super::shear::Shear;
 use super::tree::{BLOCK, EIGHT, MOST_DEPTH, TriangleBlock, WideTree};
 use arrayvec::ArrayVec;
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 /// The most nodes and blocks on the stack: seven of each level, and the last level's eight.
 const MOST_WAITING: usize = MOST_DEPTH * 7 + 8;
@@ -60,40 +60,43 @@ pub(super) fn traverse<S: Simd, V: BlockVisitor>(tree: &WideTree, frame: &BeamFr
     }
 }
 
-/// Finds whether a ray is blocked.
-pub(super) struct BlockedRay<'a> {
+/// Finds whether a ray is blocked by those faces that are kept.
+pub(super) struct BlockedRay<'a, K> {
     pub(super) tree: &'a WideTree,
     pub(super) shear: &'a Shear,
     pub(super) origin: DVec3,
+    pub(super) keep: K,
 }
 
-impl LaneWork for BlockedRay<'_> {
+impl<K: Fn(&[Vec3; 3]) -> bool> LaneWork for BlockedRay<'_, K> {
     type Output = bool;
     #[inline(always)]
     fn run<S: Simd>(self) -> bool {
-        let BlockedRay { tree, shear, origin } = self;
+        let BlockedRay { tree, shear, origin, keep } = self;
         let reference = reference(shear, origin);
         let ray = around(shear, &reference, origin);
         let frame = BeamFrame::new(shear, reference, ray, ray);
-        let mut search = AnyHit { shear, origin, ray, hit: false };
+        let mut search = AnyHit { shear, origin, ray, keep, hit: false };
         traverse::<S, _>(tree, &frame, &mut search);
         search.hit
     }
 }
 
-struct AnyHit<'a> {
+struct AnyHit<'a, K> {
     shear: &'a Shear,
     origin: DVec3,
     ray: [f32; 3],
+    keep: K,
     hit: bool,
 }
 
-impl BlockVisitor for AnyHit<'_> {
+impl<K: Fn(&[Vec3; 3]) -> bool> BlockVisitor for AnyHit<'_, K> {
     const NEAREST_FIRST: bool = true;
     #[inline(always)]
     fn visit<S: Simd>(&mut self, frame: &BeamFrame<'_>, block: &TriangleBlock) -> bool {
         let missed = FlatTriangles::<S::Eight>::of(frame, block).missed(splat(self.ray));
-        self.hit = bits(block.there & !missed).any(|at| self.shear.hit(self.origin, &block.triangle(at)).is_some());
+        let blocks = |triangle: [Vec3; 3]| self.shear.hit(self.origin, &triangle).is_some() && (self.keep)(&triangle);
+        self.hit = bits(block.there & !missed).any(|at| blocks(block.triangle(at)));
         !self.hit
     }
     #[inline(always)]
@@ -102,31 +105,35 @@ impl BlockVisitor for AnyHit<'_> {
     }
 }
 
-/// Finds the nearest face along a ray, with its distance in lengths of the direction; of equally near ones the first.
-pub(super) struct FirstHit<'a> {
+/// Finds the nearest face along a ray of those that are kept, with its distance in lengths of the direction; of equally
+/// near ones the first.
+pub(super) struct FirstHit<'a, K> {
     pub(super) tree: &'a WideTree,
     pub(super) shear: &'a Shear,
     pub(super) origin: DVec3,
+    pub(super) keep: K,
 }
 
-impl LaneWork for FirstHit<'_> {
+impl<K: Fn(&[Vec3; 3]) -> bool> LaneWork for FirstHit<'_, K> {
     type Output = Option<(u32, f64)>;
     #[inline(always)]
     fn run<S: Simd>(self) -> Option<(u32, f64)> {
-        let FirstHit { tree, shear, origin } = self;
+        let FirstHit { tree, shear, origin, keep } = self;
         let reference = reference(shear, origin);
         let ray = around(shear, &reference, origin);
         let frame = BeamFrame::new(shear, reference, ray, ray);
-        let mut search = NearestHit { shear, origin, ray, nearest: NearestFace::NOTHING, farthest: f32::INFINITY };
+        let mut search =
+            NearestHit { shear, origin, ray, keep, nearest: NearestFace::NOTHING, farthest: f32::INFINITY };
         traverse::<S, _>(tree, &frame, &mut search);
         search.nearest.hit()
     }
 }
 
-struct NearestHit<'a> {
+struct NearestHit<'a, K> {
     shear: &'a Shear,
     origin: DVec3,
     ray: [f32; 3],
+    keep: K,
     nearest: NearestFace,
     farthest: f32,
 }
@@ -164,13 +171,15 @@ impl NearestFace {
     }
 }
 
-impl BlockVisitor for NearestHit<'_> {
+impl<K: Fn(&[Vec3; 3]) -> bool> BlockVisitor for NearestHit<'_, K> {
     const NEAREST_FIRST: bool = true;
     #[inline(always)]
     fn visit<S: Simd>(&mut self, frame: &BeamFrame<'_>, block: &TriangleBlock) -> bool {
         let missed = FlatTriangles::<S::Eight>::of(frame, block).missed(splat(self.ray));
         for at in bits(block.there & !missed) {
-            if let Some(distance) = self.shear.hit(self.origin, &block.triangle(at))
+            let triangle = block.triangle(at);
+            if let Some(distance) = self.shear.hit(self.origin, &triangle)
+                && (self.keep)(&triangle)
                 && self.nearest.take(distance, block.faces[at])
             {
                 self.farthest = self.nearest.farthest(self.shear, self.ray[2], frame.shear.sign);

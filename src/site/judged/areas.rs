@@ -37,7 +37,8 @@ pub(super) fn areas(
     for (index, area) in written.site.area.iter().enumerate() {
         let table = AskedTable { written, name: "area", at: (index, written.site.area.len()) };
         let of_table = of_table(&table, area, (place, mesh), &mut notes)?;
-        for area in of_table {
+        let dwelling = table.named(area.dwelling.as_ref()).map(str::to_owned);
+        for area in of_table.into_iter().map(|of| JudgedArea { dwelling: dwelling.clone(), ..of }) {
             if !names.take(&area.name) {
                 let what = format!("\"{}\" is the name of another area, too", area.name);
                 return Err(table.wrong("name", message![what; "give each its own name"]));
@@ -70,7 +71,7 @@ fn of_table(
         table.needless("height", area.height.is_some(), key)?;
         table.needless("level", area.level.is_some(), key)?;
         let surface = AreaSurface::Faces(upper_faces(table, names, mesh)?);
-        return Ok(vec![JudgedArea { name: name(), rings: Vec::new(), surface }]);
+        return Ok(vec![JudgedArea { name: name(), rings: Vec::new(), surface, dwelling: None }]);
     }
     let height = table.within("height", area.height, 0.0, HIGHEST_M)?;
     let level = table.within("level", area.level, -HIGHEST_M, HIGHEST_M)?;
@@ -94,7 +95,7 @@ fn bounded(
 ) -> Result<JudgedArea, SiteError> {
     let rings = rings::checked(written).map_err(|fault| table.wrong(key, fault.about(&format!("\"{name}\""))))?;
     let rings = rings.into_iter().map(|ring| ring.corners).collect();
-    Ok(JudgedArea { name, rings, surface })
+    Ok(JudgedArea { name, rings, surface, dwelling: None })
 }
 
 /// The polygons of a file that are meant: all, or those with the given name.

@@ -59,6 +59,8 @@ pub struct JudgedArea {
     pub rings: Vec<Vec<DVec2>>,
     /// Where its points lie.
     pub surface: AreaSurface,
+    /// The dwelling to which it belongs, if it is a private open space.
+    pub dwelling: Option<String>,
 }
 
 /// The surface that the points of an area lie on.

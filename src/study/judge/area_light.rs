@@ -62,9 +62,8 @@ impl<'a> AreaPlace<'a> {
     /// The times at which a point is lit.
     pub(super) fn light(&self, spot: &AreaSpot) -> Result<PointLight, SunError> {
         let open = &self.open[&slope(spot.normal)];
-        let of_state = |search: &StateSearch| search.lit(&self.judged(search, spot), self.judging.days, open);
-        let now = of_state(&self.states.now)?;
-        let before = self.states.before.as_ref().map(of_state).transpose()?;
+        let at = |search: &StateSearch| self.judged(search, spot);
+        let (now, before) = self.states.lit(at, None, self.judging.days, open)?;
         Ok(PointLight { open: open.clone(), now, before })
     }
 

@@ -3,14 +3,15 @@
 use super::super::StudyError;
 use super::area_light::{AreaPlace, AreaStates};
 use super::judging::{Judging, Steps};
+use super::parts::PartsAsked;
 use super::point_light::{CountedLight, PointLight, merit};
-use super::samples::{AreaSpot, AreaSums, Samples, SumKind};
-use crate::judgement::{AreaSize, JudgedThing, ReceiverRuling, ReceiverSpells, triangles, triangles_of_faces};
+use super::samples::{AreaSpot, AreaSums, Samples};
+use crate::judgement::{AreaSize, CountedParts, JudgedThing, ReceiverRuling, ReceiverSpells};
 use crate::rules::{
-    AreaLight, CountHow, CountedTime, Criterion, DayLight, Demand, Extent, PartMet, RuleError, RuleNeed, Ruling,
-    ShadowLoad, Verdict, total_secs,
+    AreaLight, CountHow, CountedTime, Criterion, DayLight, Demand, Extent, PartMet, RuleDay, RuleError, RuleNeed,
+    Ruling, ShadowLoad, Verdict, total_secs,
 };
-use crate::site::{AreaSurface, JudgedArea};
+use crate::site::JudgedArea;
 use crate::sun::SunError;
 use crate::sunlight::JudgedPoint;
 use rayon::prelude::*;
@@ -62,6 +63,8 @@ struct AreaWork<'w> {
     place: AreaPlace<'w>,
     samples: Samples,
     m2: f64,
+    /// What is too narrow to count.
+    narrow_m2: f64,
 }
 
 /// Judges one area.
@@ -71,16 +74,13 @@ pub(super) fn area(
     area: &JudgedArea,
     steps: &mut Steps<'_, '_>,
 ) -> Result<AreaAnswer, StudyError> {
-    let parts = match &area.surface {
-        AreaSurface::Faces(faces) => triangles_of_faces(faces),
-        AreaSurface::Level(_) | AreaSurface::Ground(_) => triangles(&area.rings),
-    };
-    let m2: f64 = parts.iter().map(|part| part.m2).sum();
+    let counted = CountedParts::of(&judging.rule.receiver, area);
+    let (parts, m2) = (&counted.triangles, counted.m2());
     let question = question(judging);
     let across = if question == AreaQuestion::Load { SIDES_ACROSS_OF_SUMS } else { SIDES_ACROSS };
-    let samples = Samples::new(&parts, (m2.sqrt() / across).max(1e-3));
-    let place = AreaPlace::new(judging, states, &area.surface, &parts);
-    let work = AreaWork { judging, place, samples, m2 };
+    let samples = Samples::new(parts, (m2.sqrt() / across).max(1e-3));
+    let place = AreaPlace::new(judging, states, &area.surface, parts);
+    let work = AreaWork { judging, place, samples, m2, narrow_m2: counted.narrow_m2 };
     let mut answer = match question {
         AreaQuestion::Part => work.part(steps)?,
         AreaQuestion::Load => work.load(steps)?,
@@ -123,28 +123,23 @@ impl AreaWork<'_> {
     }
 
     fn part(mut self, steps: &mut Steps<'_, '_>) -> Result<AreaAnswer, StudyError> {
-        let (judging, asked) = (self.judging, self.asked());
+        let (judging, m2, asked) = (self.judging, self.m2, self.asked());
         let states = if judging.before.is_some() { 2 } else { 1 };
-        let kinds = vec![SumKind::Part; asked.len() * states];
         let value = |spot: &AreaSpot| -> Result<Vec<f64>, SunError> {
             let light = self.place.light(spot)?.counted();
             Ok(margins(judging, &light, &asked))
         };
-        let m2 = self.m2;
-        let allowed = |_: &AreaSums, _: usize| GOOD_SHARE * m2;
-        let sums = self.samples.refine(&kinds, &value, (&allowed, MOST_POINTS), steps)?;
-        let lights: Vec<AreaLight<'_>> = (0..judging.days.days.len())
-            .map(|day| {
-                let met = |number: usize| {
-                    let at = asked.iter().position(|one| *one == (day, number))? * states;
-                    let before_m2 = (states == 2).then(|| sums.sums[at + 1].min(m2));
-                    let error_m2 = sums.errors[at..at + states].iter().copied().fold(0.0, f64::max);
-                    Some(PartMet { now_m2: sums.sums[at].min(m2), before_m2, error_m2 })
-                };
-                AreaLight { day: &judging.days.days[day], met: (0..judging.rule.criteria.len()).map(met).collect() }
-            })
-            .collect();
-        let ruling = judging.rule.judge_parts(m2, &lights)?;
+        let ruling = |sums: &AreaSums| judging.rule.judge_parts(m2, &lights(judging, (&asked, states), m2, sums));
+        let is_decided =
+            |sums: &AreaSums| Ok(ruling(sums)?.findings.iter().all(|finding| finding.verdict != Verdict::Close));
+        let parts = PartsAsked {
+            numbers: asked.len() * states,
+            good_m2: GOOD_SHARE * m2,
+            most_points: MOST_POINTS,
+            is_decided: &is_decided,
+        };
+        let sums = self.samples.parts(&parts, &value, steps)?;
+        let ruling = ruling(&sums)?;
         let error_m2 = sums.errors.iter().copied().fold(0.0, f64::max);
         let deciding = ruling.deciding.map(|at| &ruling.findings[at]);
         let field = deciding.and_then(|finding| {
@@ -190,7 +185,12 @@ impl AreaWork<'_> {
             name: String::new(),
             kind: JudgedThing::Area,
             ruling,
-            area: Some(AreaSize { m2: self.m2, points: self.samples.values.len(), error_m2 }),
+            area: Some(AreaSize {
+                m2: self.m2,
+                narrow_m2: self.narrow_m2,
+                points: self.samples.values.len(),
+                error_m2,
+            }),
             points: spot.iter().map(|spot| self.place.judged_now(spot).point).collect(),
             normal: spot.and_then(|spot| spot.normal),
             room: None,
@@ -206,7 +206,7 @@ impl AreaWork<'_> {
     fn load(mut self, steps: &mut Steps<'_, '_>) -> Result<AreaAnswer, StudyError> {
         let judging = self.judging;
         let days = judging.days.days;
-        // the last number is the sum of all days, which alone decides which triangles are split
+        // the first number is the sum of all days, which alone decides which triangles are split
         let value = |spot: &AreaSpot| -> Result<Vec<f64>, SunError> {
             let light = self.place.light(spot)?.counted();
             let secs = |day: usize| total_secs(&light.new_shadow(day)) as f64;
@@ -217,9 +217,9 @@ impl AreaWork<'_> {
         };
         let open: i64 = days.iter().map(|day| total_secs(&day.windows)).sum();
         let enough = 1e-6 * self.m2 * open as f64;
-        let allowed = |sums: &AreaSums, number: usize| (GOOD_LOAD * sums.sums[number]).max(enough);
-        self.samples.refine(&[SumKind::Number], &value, (&allowed, MOST_POINTS_OF_SUMS), steps)?;
-        let sums = self.samples.sums(&vec![SumKind::Number; days.len() + 1]);
+        let allowed = |sum: f64| (GOOD_LOAD * sum).max(enough);
+        self.samples.refine(&value, (&allowed, MOST_POINTS_OF_SUMS), steps)?;
+        let sums = self.samples.sums(days.len() + 1);
         let each_error = sums.errors[0] / days.len().max(1) as f64;
         let of = |(at, day)| ShadowLoad { day, m2_secs: sums.sums[at + 1], error_m2_secs: each_error };
         let loads: Vec<ShadowLoad<'_>> = days.iter().enumerate().map(of).collect();
@@ -291,6 +291,25 @@ pub(super) fn close_where_near(ruling: &mut Ruling, lowered: f64) {
     if is_near {
         ruling.verdict = Verdict::Close;
     }
+}
+
+/// The parts of an area that keep each criterion on each day, in one or both states.
+fn lights<'d>(
+    judging: &Judging<'d>,
+    (asked, states): (&[(usize, usize)], usize),
+    m2: f64,
+    sums: &AreaSums,
+) -> Vec<AreaLight<'d>> {
+    let of_day = |(day, of): (usize, &'d RuleDay)| {
+        let met = |number: usize| {
+            let at = asked.iter().position(|one| *one == (day, number))? * states;
+            let before_m2 = (states == 2).then(|| sums.sums[at + 1].min(m2));
+            let error_m2 = sums.errors[at..at + states].iter().copied().fold(0.0, f64::max);
+            Some(PartMet { now_m2: sums.sums[at].min(m2), before_m2, error_m2 })
+        };
+        AreaLight { day: of, met: (0..judging.rule.criteria.len()).map(met).collect() }
+    };
+    judging.days.days.iter().enumerate().map(of_day).collect()
 }
 
 /// The margin by which a point keeps each demand, in seconds, now and before.

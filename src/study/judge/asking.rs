@@ -31,13 +31,14 @@ pub fn judge(
     let judging = Judging { site, rule, days: &days, before };
     let Some(first) = hulls.first() else { return Err(StudyError::NoDay) };
     let mut steps = Steps::new(on_event, judging.count(), first.from)?;
-    let JudgedReceivers { mut receivers, windows } = found(&judging, &mut steps)?;
+    let JudgedReceivers { mut receivers, windows, open_spaces } = found(&judging, &mut steps)?;
     let rulings: Vec<Ruling> = receivers.iter().map(|(receiver, _)| receiver.ruling.clone()).collect();
     let groups = groups(&WindowsJudged {
         rule,
         days: &calendar,
         windows: if windows.is_empty() { &[] } else { &site.windows },
         lights: &windows,
+        open_spaces: &open_spaces,
         rulings: &rulings,
     })?;
     with_takers(&judging, &hulls, &mut receivers, &mut steps)?;

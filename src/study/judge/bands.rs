@@ -188,9 +188,8 @@ impl<'w> BandWork<'w> {
 
     fn light(&self, at: &PlotSpot) -> Result<PointLight, SunError> {
         let open = &self.open;
-        let of_state = |search: &StateSearch| search.lit(&search.free(self.point(at), None), self.judging.days, open);
-        let now = of_state(&self.states.now)?;
-        let before = self.states.before.as_ref().map(of_state).transpose()?;
+        let place = |search: &StateSearch| search.free(self.point(at), None);
+        let (now, before) = self.states.lit(place, None, self.judging.days, open)?;
         Ok(PointLight { open: open.clone(), now, before })
     }
 }

@@ -4,7 +4,7 @@ use super::super::StudyError;
 use crate::rules::{DaySun, GrazingIn, RuleDay, Spell, SunCuts, common, merged};
 use crate::site::JudgedSite;
 use crate::sun::{Air, Day, DayWindow, Place, Sky, SunError, Zone, delta_t_secs};
-use crate::sunlight::{Interval, JudgedPoint, ProbeSearch, SearchedDays};
+use crate::sunlight::{Interval, JudgedPoint, ProbeSearch, SearchedDays, WallFront};
 use chrono::{DateTime, TimeZone};
 use glam::DVec3;
 use rayon::prelude::*;
@@ -92,10 +92,28 @@ impl<'a> JudgedDays<'a> {
     }
 
     /// A point's intervals on all days.
-    pub(super) fn intervals(&self, search: &ProbeSearch, at: &JudgedPoint) -> Result<Vec<Vec<Interval>>, SunError> {
+    pub(super) fn intervals(
+        &self,
+        search: &ProbeSearch,
+        (at, wall): (&JudgedPoint, Option<WallFront>),
+    ) -> Result<Vec<Vec<Interval>>, SunError> {
         let mut found = Vec::with_capacity(self.days.len());
         for days in &self.searched {
-            found.extend(search.intervals(at, days)?);
+            found.extend(search.intervals_before(at, wall, days)?);
+        }
+        Ok(found)
+    }
+
+    /// The same in two states.
+    pub(super) fn intervals_in_both(
+        &self,
+        searches: [&ProbeSearch; 2],
+        (at, wall): ([&JudgedPoint; 2], Option<WallFront>),
+    ) -> Result<[Vec<Vec<Interval>>; 2], SunError> {
+        let mut found = [Vec::new(), Vec::new()];
+        for days in &self.searched {
+            let of_days = ProbeSearch::intervals_in_both(searches, at, wall, days)?;
+            found.iter_mut().zip(of_days).for_each(|(found, more)| found.extend(more));
         }
         Ok(found)
     }

@@ -7,7 +7,6 @@ use super::state_search::StateSearch;
 use crate::judgement::{JudgedThing, ReceiverRuling};
 use crate::rules::Ruling;
 use crate::site::JudgedFacade;
-use crate::sun::SunError;
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -62,11 +61,8 @@ pub(super) fn facade(
 
 fn of_point(judging: &Judging<'_>, searches: &BothStates, point: [DVec3; 2]) -> Result<Worst, StudyError> {
     let open = judging.days.open(Some(point[1]));
-    let of_state = |search: &StateSearch| -> Result<_, SunError> {
-        search.lit(&search.in_plane(point[0], point[1]), judging.days, &open)
-    };
-    let now = of_state(&searches.now)?;
-    let before = searches.before.as_ref().map(of_state).transpose()?;
+    let at = |search: &StateSearch| search.in_plane(point[0], point[1]);
+    let (now, before) = searches.lit(at, None, judging.days, &open)?;
     let light = PointLight { open, now, before };
     let counted = light.counted();
     let ruling = counted.ruling(judging.rule, None, judging.days.days)?;

@@ -1,7 +1,7 @@
 //! Rooms, dwellings and the house.
 
 use super::super::StudyError;
-use super::point_light::CountedLight;
+use super::point_light::{CountedLight, PointLight};
 use super::windows::WindowLight;
 use crate::judgement::{GroupKind, GroupRuling};
 use crate::rules::{
@@ -23,6 +23,8 @@ pub(super) struct WindowsJudged<'a> {
     pub(super) days: &'a [RuleDay],
     pub(super) windows: &'a [JudgedWindow],
     pub(super) lights: &'a [WindowLight],
+    /// The dwelling and the light of each open space.
+    pub(super) open_spaces: &'a [(String, PointLight)],
     pub(super) rulings: &'a [Ruling],
 }
 
@@ -86,7 +88,11 @@ fn rooms(judged: &WindowsJudged<'_>) -> Result<Vec<GroupRuling>, StudyError> {
 
 /// The light of several windows together: lit while any of them is.
 fn union(judged: &WindowsJudged<'_>, windows: &[usize]) -> CountedLight {
-    let lights: Vec<CountedLight> = windows.iter().map(|at| judged.lights[*at].light.counted()).collect();
+    together(judged, windows.iter().map(|at| &judged.lights[*at].light))
+}
+
+fn together<'l>(judged: &WindowsJudged<'_>, lights: impl Iterator<Item = &'l PointLight>) -> CountedLight {
+    let lights: Vec<CountedLight> = lights.map(PointLight::counted).collect();
     CountedLight::any(&lights.iter().collect::<Vec<_>>(), judged.days.len())
 }
 
@@ -128,13 +134,13 @@ fn dwellings(judged: &WindowsJudged<'_>, rooms: &[GroupRuling]) -> Result<Vec<Gr
 /// Judges the house by its dwellings, each with its uses.
 fn house(judged: &WindowsJudged<'_>, all_of: &[String]) -> Result<Vec<GroupRuling>, StudyError> {
     let mut names: Vec<&str> = Vec::new();
-    for window in judged.windows {
-        if let Some(dwelling) = window.dwelling.as_deref()
-            && !names.contains(&dwelling)
-        {
+    let of_windows = judged.windows.iter().filter_map(|window| window.dwelling.as_deref());
+    for dwelling in of_windows.chain(judged.open_spaces.iter().map(|(dwelling, _)| dwelling.as_str())) {
+        if !names.contains(&dwelling) {
             names.push(dwelling);
         }
     }
+    let RuleReceiver::Window { open_spaces, .. } = &judged.rule.receiver else { return Ok(Vec::new()) };
     let criteria: Vec<usize> =
         (0..judged.rule.criteria.len()).filter(|number| judged.rule.criteria[*number].is_of_dwellings()).collect();
     let mut counted: Vec<Vec<DwellingSun>> = vec![Vec::new(); criteria.len()];
@@ -148,10 +154,14 @@ fn house(judged: &WindowsJudged<'_>, all_of: &[String]) -> Result<Vec<GroupRulin
             };
             let windows: Vec<usize> = (0..judged.windows.len()).filter(|at| is_own(&judged.windows[*at])).collect();
             of.extend(windows.iter().map(|at| judged.windows[*at].name.clone()));
-            if windows.is_empty() {
+            let is_open_space = open_spaces.as_ref().is_some_and(|spaces| spaces.usage == *usage);
+            let spaces = judged.open_spaces.iter().filter(|(dwelling, _)| is_open_space && dwelling == name);
+            let spaces: Vec<&PointLight> = spaces.map(|(_, light)| light).collect();
+            if windows.is_empty() && spaces.is_empty() {
                 continue;
             }
-            let light = union(judged, &windows);
+            let of_windows = windows.iter().map(|at| &judged.lights[*at].light);
+            let light = together(judged, of_windows.chain(spaces));
             for (at, number) in criteria.iter().enumerate() {
                 uses[at].push((usage.clone(), least_secs(judged, &light, *number)?));
             }

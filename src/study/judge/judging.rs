@@ -2,10 +2,12 @@
 
 use super::super::{Event, OnEvent, StudyError, tell};
 use super::days::JudgedDays;
-use super::state_search::StateSearch;
-use crate::rules::ResolvedRule;
+use super::state_search::{StateSearch, WallPlane};
+use crate::judgement::LitSpell;
+use crate::rules::{ResolvedRule, Spell};
 use crate::site::{JudgedSite, JudgedState};
-use crate::sun::Zone;
+use crate::sun::{SunError, Zone};
+use crate::sunlight::JudgedPoint;
 use chrono::DateTime;
 use glam::DVec3;
 
@@ -24,15 +26,38 @@ pub(super) struct BothStates {
     pub(super) before: Option<StateSearch>,
 }
 
-impl Judging<'_> {
-    /// Both states, with what `of` derives from each.
-    pub(super) fn both(&self, of: impl Fn(&JudgedState) -> StateSearch) -> BothStates {
-        BothStates { now: of(&self.site.now), before: self.before.map(of) }
-    }
+/// When a point is lit: the spells of each day in the state that is judged, and in the one before.
+pub(super) type LitInBoth = (Vec<Vec<LitSpell>>, Option<Vec<Vec<LitSpell>>>);
 
+impl Judging<'_> {
     /// Both states, for points within the bounds of these.
     pub(super) fn states(&self, points: &[DVec3]) -> BothStates {
-        self.both(|state| StateSearch::of(state, points))
+        match self.before {
+            None => BothStates { now: StateSearch::of(&self.site.now, points), before: None },
+            Some(before) => {
+                let [now, before] = StateSearch::of_both([&self.site.now, before], points);
+                BothStates { now, before: Some(before) }
+            }
+        }
+    }
+}
+
+impl BothStates {
+    /// When a point is lit, as each state places it. If a wall is given, only what lies in front of it takes the sun.
+    pub(super) fn lit(
+        &self,
+        at: impl Fn(&StateSearch) -> JudgedPoint,
+        wall: Option<WallPlane>,
+        days: &JudgedDays<'_>,
+        open: &[Vec<Spell>],
+    ) -> Result<LitInBoth, SunError> {
+        let of_now = at(&self.now);
+        let Some(before) = &self.before else {
+            return Ok((self.now.lit_before((&of_now, wall), days, open)?, None));
+        };
+        let both = [&of_now, &at(before)];
+        let [now, before] = StateSearch::lit_in_both([&self.now, before], (both, wall), days, open)?;
+        Ok((now, Some(before)))
     }
 }
 

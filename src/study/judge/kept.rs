@@ -7,13 +7,14 @@ use super::days::{JudgedDays, hulls};
 use super::judging::{BothStates, Judging, Steps};
 use super::kept_demand::{RuleDemand, days_needed, needed_weight};
 use super::needs;
+use super::open_spaces::of_dwellings;
 use super::point_light::PointLight;
 use super::samples::AreaSpot;
 use super::windows::{WindowLight, windows};
-use crate::judgement::{DeemedBorder, PartTriangle, triangles, triangles_of_faces};
+use crate::judgement::{CountedParts, DeemedBorder, PartTriangle};
 use crate::rules::{Band, HeightOver, ResolvedRule, RuleDay, RuleReceiver};
 use crate::shadow::JUDGED_ABOVE_M;
-use crate::site::{AreaSurface, JudgedArea, JudgedPlot, JudgedSite, JudgedWindow};
+use crate::site::{JudgedArea, JudgedPlot, JudgedSite, JudgedWindow};
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -98,7 +99,23 @@ fn of_windows(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<Vec<Ke
         let points = found.spot.points.iter().map(|point| point + before).collect();
         Ok(whole(window.name.clone(), vec![place(judging, &demand, (1.0, points), &found.light)?]))
     };
-    judging.site.windows.iter().zip(&lights).map(of).collect()
+    let mut things = judging.site.windows.iter().zip(&lights).map(of).collect::<Result<Vec<_>, StudyError>>()?;
+    if let RuleReceiver::Window { open_spaces: Some(open_spaces), .. } = &judging.rule.receiver {
+        let states = judging.states(&reach_of(&judging.site.areas, &[&judging.site.now]));
+        for area in of_dwellings(&judging.rule.receiver, judging.site) {
+            let places = of_area(judging, (&demand, &states), area, steps)?;
+            let m2: f64 = places.iter().map(|place| place.weight).sum();
+            // at least one place, if any part is enough
+            let least = places.iter().map(|place| place.weight).fold(f64::INFINITY, f64::min);
+            things.push(KeptThing {
+                name: area.name.clone(),
+                places,
+                needed: open_spaces.least_lit_m2.max(least).min(m2),
+            });
+            steps.done(1)?;
+        }
+    }
+    Ok(things)
 }
 
 fn of_facades(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<Vec<KeptThing>, StudyError> {
@@ -143,13 +160,10 @@ fn of_area(
     area: &JudgedArea,
     steps: &mut Steps<'_, '_>,
 ) -> Result<Vec<KeptPlace>, StudyError> {
-    let parts = match &area.surface {
-        AreaSurface::Faces(faces) => triangles_of_faces(faces),
-        AreaSurface::Level(_) | AreaSurface::Ground(_) => triangles(&area.rings),
-    };
-    let m2: f64 = parts.iter().map(|part| part.m2).sum();
-    let on = AreaPlace::new(judging, states, &area.surface, &parts);
-    let spots = spots(&parts, (m2.sqrt() / ACROSS).max(LEAST_M));
+    let counted = CountedParts::of(&judging.rule.receiver, area);
+    let (parts, m2) = (&counted.triangles, counted.m2());
+    let on = AreaPlace::new(judging, states, &area.surface, parts);
+    let spots = spots(parts, (m2.sqrt() / ACROSS).max(LEAST_M));
     let of = |(spot, m2): &(AreaSpot, f64)| -> Result<_, StudyError> {
         place(judging, demand, (*m2, vec![on.judged_now(spot).point]), &on.light(spot)?)
     };

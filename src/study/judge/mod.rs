@@ -7,6 +7,7 @@ mod area_light;
 mod areas;
 mod asking;
 mod bands;
+mod border_points;
 mod days;
 mod facades;
 mod groups;
@@ -14,6 +15,8 @@ mod judging;
 mod kept;
 mod kept_demand;
 mod needs;
+mod open_spaces;
+mod parts;
 mod point_light;
 mod receivers;
 mod samples;
@@ -24,3 +27,5 @@ mod windows;
 
 pub use asking::judge;
 pub use kept::{KeptByRule, kept_by};
+#[cfg(feature = "test-hooks")]
+pub use parts::{MeasuredPart, measured_part};

@@ -1,12 +1,13 @@
 //! What a rule needs and a site does not have: one error that lists all of it.
 
-use crate::judgement::{narrow_place, needed_of_window};
+use super::open_spaces::of_dwellings;
+use crate::judgement::{CountedParts, needed_of_window};
 use crate::message::few;
 use crate::rules::{
-    CompareWith, CountedTime, Criterion, DwellingShare, Grouping, HeightOver, ResolvedRule, RuleError, RuleNeed,
-    RuleReceiver,
+    CompareWith, CountedTime, Criterion, DwellingShare, Grouping, HeightOver, OpenSpaces, ResolvedRule, RuleError,
+    RuleNeed, RuleReceiver,
 };
-use crate::site::{AreaSurface, JudgedSite};
+use crate::site::{JudgedArea, JudgedSite};
 use std::collections::BTreeMap;
 
 /// The most names that are listed.
@@ -19,7 +20,7 @@ const MOST_NAMES: usize = 30;
 pub(super) fn check(rule: &ResolvedRule, site: &JudgedSite) -> Result<(), RuleError> {
     let mut needs = Vec::new();
     match &rule.receiver {
-        RuleReceiver::Area { least_width_m } => of_areas(site, *least_width_m, &mut needs),
+        receiver @ RuleReceiver::Area { .. } => of_areas(site, receiver, &mut needs),
         RuleReceiver::Facade if site.facades.is_empty() => needs.push(RuleNeed::of_key("a façade", "[[facade]]", "")),
         RuleReceiver::Facade => {}
         RuleReceiver::Window { .. } => of_windows(rule, site, &mut needs),
@@ -35,21 +36,17 @@ pub(super) fn check(rule: &ResolvedRule, site: &JudgedSite) -> Result<(), RuleEr
     Err(RuleError::Needs { rule: rule.id.clone(), needs })
 }
 
-fn of_areas(site: &JudgedSite, least_width_m: f64, needs: &mut Vec<RuleNeed>) {
+fn of_areas(site: &JudgedSite, receiver: &RuleReceiver, needs: &mut Vec<RuleNeed>) {
     if site.areas.is_empty() {
         needs.push(RuleNeed::of_key("an area", "[[area]]", ""));
     }
-    for area in &site.areas {
-        if matches!(area.surface, AreaSurface::Faces(_)) {
-            continue;
-        }
-        if let Some((at, wide)) = narrow_place(&area.rings, least_width_m) {
-            needs.push(RuleNeed::without_key(format!(
-                "area {:?} without the part around ({:.2}, {:.2}), where it is {wide:.2} m wide and parts narrower than \
-                 {least_width_m} m do not count",
-                area.name, at.x, at.y
-            )));
-        }
+    let has_none = |area: &&JudgedArea| CountedParts::of(receiver, area).triangles.is_empty();
+    let narrow: Vec<String> = site.areas.iter().filter(has_none).map(|area| format!("{:?}", area.name)).collect();
+    if let RuleReceiver::Area { least_width_m } = receiver
+        && !narrow.is_empty()
+    {
+        let of = if narrow.len() <= MOST_NAMES { narrow.join(", ") } else { few(narrow) };
+        needs.push(RuleNeed::without_key(format!("a part that is at least {least_width_m} m wide in area {of}")));
     }
 }
 
@@ -71,7 +68,7 @@ fn of_windows(rule: &ResolvedRule, site: &JudgedSite, needs: &mut Vec<RuleNeed>)
         needs.push(RuleNeed::of_key("a window", "[[window]]", ""));
         return;
     }
-    let RuleReceiver::Window { group, all_of, .. } = &rule.receiver else { return };
+    let RuleReceiver::Window { group, all_of, open_spaces, .. } = &rule.receiver else { return };
     let mut lacking: BTreeMap<[&'static str; 2], Vec<String>> = BTreeMap::new();
     for window in &site.windows {
         let mut needed = needed_of_window(&rule.receiver, window);
@@ -96,15 +93,25 @@ fn of_windows(rule: &ResolvedRule, site: &JudgedSite, needs: &mut Vec<RuleNeed>)
         let of = if windows.len() <= MOST_NAMES { windows.join(", ") } else { few(windows) };
         needs.push(RuleNeed::of_key(format!("{what} of window {of}"), "[[window]]", key));
     }
-    of_uses(all_of, site, needs);
+    let spaces = of_dwellings(&rule.receiver, site);
+    of_uses((all_of, open_spaces.as_ref()), (site, &spaces), needs);
 }
 
 /// A dwelling that lacks one of the uses is an error; it does not pass.
-fn of_uses(all_of: &[String], site: &JudgedSite, needs: &mut Vec<RuleNeed>) {
+fn of_uses(
+    (all_of, open_spaces): (&[String], Option<&OpenSpaces>),
+    (site, spaces): (&JudgedSite, &[&JudgedArea]),
+    needs: &mut Vec<RuleNeed>,
+) {
     let mut dwellings: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for window in &site.windows {
         if let (Some(dwelling), Some(usage)) = (&window.dwelling, &window.usage) {
             dwellings.entry(dwelling).or_default().push(usage);
+        }
+    }
+    for (area, of) in spaces.iter().zip(std::iter::repeat(open_spaces)) {
+        if let (Some(dwelling), Some(of)) = (&area.dwelling, of) {
+            dwellings.entry(dwelling).or_default().push(&of.usage);
         }
     }
     for usage in all_of {
@@ -112,7 +119,9 @@ fn of_uses(all_of: &[String], site: &JudgedSite, needs: &mut Vec<RuleNeed>) {
         let without: Vec<String> = without.map(|(name, _)| format!("{name:?}")).collect();
         if !without.is_empty() {
             let of = if without.len() <= MOST_NAMES { without.join(", ") } else { few(without) };
-            needs.push(RuleNeed::of_key(format!("a window of use {usage:?} in dwelling {of}"), "[[window]]", "usage"));
+            let is_open_space = open_spaces.is_some_and(|spaces| spaces.usage == *usage);
+            let what = if is_open_space { "a window or area" } else { "a window" };
+            needs.push(RuleNeed::of_key(format!("{what} of use {usage:?} in dwelling {of}"), "[[window]]", "usage"));
         }
     }
 }

@@ -6,6 +6,7 @@ use super::areas::area;
 use super::bands::BandWork;
 use super::facades::facade;
 use super::judging::{Judging, Steps};
+use super::open_spaces::{OpenSpace, of_dwellings, open_spaces};
 use super::point_light::PointLight;
 use super::state_search::WallPlane;
 use super::windows::{WindowLight, wall_plane, windows};
@@ -36,6 +37,8 @@ pub(super) struct JudgedReceivers {
     pub(super) receivers: Vec<(ReceiverRuling, ShadedReceiver)>,
     /// For a rule of windows, the light of each, in the site's order.
     pub(super) windows: Vec<WindowLight>,
+    /// For each open space of a dwelling its light.
+    pub(super) open_spaces: Vec<(String, PointLight)>,
 }
 
 impl Judging<'_> {
@@ -44,7 +47,7 @@ impl Judging<'_> {
         match &self.rule.receiver {
             RuleReceiver::Area { .. } => self.site.areas.len(),
             RuleReceiver::Facade => self.site.facades.len(),
-            RuleReceiver::Window { .. } => self.site.windows.len(),
+            receiver @ RuleReceiver::Window { .. } => self.site.windows.len() + of_dwellings(receiver, self.site).len(),
             RuleReceiver::Lines { bands, .. } => bands.len(),
         }
     }
@@ -75,7 +78,7 @@ fn of_areas(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<JudgedRe
         }
         receivers.push((receiver, ShadedReceiver { parts, wall: None }));
     }
-    Ok(JudgedReceivers { receivers, windows: Vec::new() })
+    Ok(JudgedReceivers { receivers, windows: Vec::new(), open_spaces: Vec::new() })
 }
 
 fn of_facades(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<JudgedReceivers, StudyError> {
@@ -86,7 +89,7 @@ fn of_facades(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<Judged
         let judged = facade(judging, &searches, of, steps)?;
         receivers.extend(judged.map(|(receiver, light)| told(judging, receiver, &light)));
     }
-    Ok(JudgedReceivers { receivers, windows: Vec::new() })
+    Ok(JudgedReceivers { receivers, windows: Vec::new(), open_spaces: Vec::new() })
 }
 
 fn of_bands(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<JudgedReceivers, StudyError> {
@@ -96,7 +99,7 @@ fn of_bands(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<JudgedRe
         let band = work.as_ref().map(|work| work.band(number, steps)).transpose()?.flatten();
         receivers.extend(band.map(|(receiver, light)| told(judging, receiver, &light)));
     }
-    Ok(JudgedReceivers { receivers, windows: Vec::new() })
+    Ok(JudgedReceivers { receivers, windows: Vec::new(), open_spaces: Vec::new() })
 }
 
 fn of_windows(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<JudgedReceivers, StudyError> {
@@ -121,7 +124,12 @@ fn of_windows(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<Judged
         let (receiver, shaded) = told(judging, receiver, light);
         receivers.push((receiver, ShadedReceiver { wall: wall_plane(spot), ..shaded }));
     }
-    Ok(JudgedReceivers { receivers, windows: lights })
+    let mut spaces = Vec::new();
+    for OpenSpace { dwelling, light, receiver } in open_spaces(judging, steps)? {
+        receivers.push(told(judging, receiver, &light));
+        spaces.push((dwelling, light));
+    }
+    Ok(JudgedReceivers { receivers, windows: lights, open_spaces: spaces })
 }
 
 /// A receiver that consists of points, with the spells of the days that are reported.

@@ -1,11 +1,10 @@
 //! An area as triangles with points at their corners, split where what is asked of it changes.
 //!
-//! A part of an area is bounded from both sides: by the triangles whose corners all keep the demand, and by those of which
-//! some corners do. The middle between the two is reported, with half of their difference as its error. Near a long wall the
-//! time in the sun jumps within a step, so that nothing is known of it between two corners that differ. Of a number's sum
-//! the error is what the last splits of triangles changed, added up without signs.
+//! The error of a number's sum is what the last splits of triangles changed, added up without signs. `parts` has the parts
+//! of an area that keep a demand.
 
 use super::super::StudyError;
+use super::border_points::points_in;
 use super::judging::Steps;
 use crate::judgement::PartTriangle;
 use crate::sun::SunError;
@@ -25,22 +24,13 @@ pub(super) struct AreaSpot {
     pub(super) normal: Option<DVec3>,
 }
 
-/// What is summed over an area.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum SumKind {
-    /// The area where the number is not below 0.
-    Part,
-    /// The number itself, times the area.
-    Number,
-}
-
 /// A triangle that is not split further.
 #[derive(Clone, Debug)]
-struct Leaf {
-    corners: [u32; 3],
-    m2: f64,
-    /// For each number, how much the last split changed, as this triangle's share of it.
-    changed: Vec<f64>,
+pub(super) struct Leaf {
+    pub(super) corners: [u32; 3],
+    pub(super) m2: f64,
+    /// For each number that is summed, how much the last split changed, as this triangle's share of it.
+    pub(super) changed: Vec<f64>,
 }
 
 /// The sum over an area of each number, with its error.
@@ -55,15 +45,15 @@ pub(super) struct Samples {
     pub(super) spots: Vec<AreaSpot>,
     /// The numbers at each point.
     pub(super) values: Vec<Vec<f64>>,
-    leaves: Vec<Leaf>,
+    pub(super) leaves: Vec<Leaf>,
     middles: HashMap<(u32, u32), u32>,
 }
 
 /// The numbers asked of a point, in their order.
 pub(super) type SpotFunction<'a> = &'a (dyn Fn(&AreaSpot) -> Result<Vec<f64>, SunError> + Sync);
 
-/// The error that the sum of a number may have, given the sums so far.
-pub(super) type AllowedError<'a> = &'a dyn Fn(&AreaSums, usize) -> f64;
+/// The error that a sum may have, given the sum so far.
+pub(super) type AllowedError<'a> = &'a dyn Fn(f64) -> f64;
 
 impl Samples {
     /// Cuts an area into triangles whose sides are at most `longest_m` long.
@@ -88,6 +78,17 @@ impl Samples {
             }
         }
         samples
+    }
+
+    /// A point at random in each triangle, with the triangle's square metres.
+    pub(super) fn spot_in_each(&self) -> (Vec<AreaSpot>, Vec<f64>) {
+        let of = |leaf: &Leaf| {
+            let [a, b, c] = leaf.corners.map(|corner| self.spots[corner as usize]);
+            points_in([a.at, b.at, c.at], 0, 1)
+                .map(|at| (AreaSpot { at, normal: a.normal }, leaf.m2))
+                .collect::<Vec<_>>()
+        };
+        self.leaves.iter().flat_map(of).unzip()
     }
 
     /// Halves a triangle as long as its longest side is too long.
@@ -126,72 +127,61 @@ impl Samples {
         Ok(())
     }
 
-    fn of_leaf(&self, corners: [u32; 3], number: usize) -> [f64; 3] {
+    pub(super) fn of_leaf(&self, corners: [u32; 3], number: usize) -> [f64; 3] {
         corners.map(|corner| self.values[corner as usize][number])
     }
 
-    /// The sums over the present triangles.
-    pub(super) fn sums(&self, kinds: &[SumKind]) -> AreaSums {
+    /// The sums of numbers over the present triangles.
+    pub(super) fn sums(&self, numbers: usize) -> AreaSums {
         let of = |number: usize| -> (f64, f64) {
-            let kind = kinds[number];
             let leaf = |leaf: &Leaf| {
                 let three = self.of_leaf(leaf.corners, number);
-                let error = match kind {
-                    _ if !is_open(kind, three) => 0.0,
-                    SumKind::Part => leaf.m2 / 2.0,
-                    SumKind::Number => leaf.changed.get(number).copied().unwrap_or(leaf.m2 * spread(three)),
+                let error = match is_level(three) {
+                    true => 0.0,
+                    false => leaf.changed.get(number).copied().unwrap_or(leaf.m2 * spread(three)),
                 };
-                (leaf.m2 * part(kind, three), error)
+                (leaf.m2 * mean(three), error)
             };
             self.leaves.iter().map(leaf).fold((0.0, 0.0), |sum, of| (sum.0 + of.0, sum.1 + of.1))
         };
-        let (sums, errors) = (0..kinds.len()).map(of).unzip();
+        let (sums, errors) = (0..numbers).map(of).unzip();
         AreaSums { sums, errors }
     }
 
-    /// Splits the triangles in which the numbers change, until no sum's error exceeds what `allowed` gives for it, or there
-    /// are `most` points.
+    /// Splits the triangles in which the first number changes, until its sum's error does not exceed what `allowed` gives
+    /// for the sum, or there are `most` points.
     pub(super) fn refine(
         &mut self,
-        kinds: &[SumKind],
         value: SpotFunction<'_>,
         (allowed, most): (AllowedError<'_>, usize),
         steps: &mut Steps<'_, '_>,
-    ) -> Result<AreaSums, StudyError> {
-        /// The number of rounds in which those triangles are split, too, in which a number may pass 0.
+    ) -> Result<(), StudyError> {
         const AT_LEAST: usize = 2;
         const AT_MOST: usize = 12;
         self.ask(value, steps)?;
-        let mut sums = self.sums(kinds);
         for pass in 0..AT_MOST {
-            let allowed: Vec<f64> = (0..kinds.len()).map(|number| allowed(&sums, number)).collect();
-            let is_good = || sums.errors.iter().zip(&allowed).all(|(error, allowed)| error <= allowed);
+            let sums = self.sums(1);
+            let is_good = || sums.errors[0] <= allowed(sums.sums[0]);
             if pass >= AT_LEAST && is_good() || self.spots.len() > most {
                 break;
             }
             let leaves = std::mem::take(&mut self.leaves);
-            let is_split = |leaf: &Leaf| {
-                (0..kinds.len()).any(|number| {
-                    let three = self.of_leaf(leaf.corners, number);
-                    is_open(kinds[number], three) || pass < AT_LEAST && is_near(kinds[number], three)
-                })
-            };
-            let (split, whole): (Vec<Leaf>, Vec<Leaf>) = leaves.into_iter().partition(is_split);
+            let (whole, split): (Vec<Leaf>, Vec<Leaf>) =
+                leaves.into_iter().partition(|leaf| is_level(self.of_leaf(leaf.corners, 0)));
             self.leaves = whole;
             if split.is_empty() {
                 break;
             }
-            self.split(split, kinds, value, steps)?;
-            sums = self.sums(kinds);
+            self.split(split, 1, value, steps)?;
         }
-        Ok(sums)
+        Ok(())
     }
 
-    /// Splits leaves into four each, and records how much that changes them.
+    /// Splits leaves into four each, and records how much that changes the first numbers.
     fn split(
         &mut self,
         leaves: Vec<Leaf>,
-        kinds: &[SumKind],
+        numbers: usize,
         value: SpotFunction<'_>,
         steps: &mut Steps<'_, '_>,
     ) -> Result<(), StudyError> {
@@ -200,11 +190,11 @@ impl Samples {
         for (leaf, quarters) in leaves.into_iter().zip(quarters) {
             let quarter_m2 = leaf.m2 / 4.0;
             let changed = |number: usize| {
-                let whole = leaf.m2 * part(kinds[number], self.of_leaf(leaf.corners, number));
-                let of = |corners: [u32; 3]| quarter_m2 * part(kinds[number], self.of_leaf(corners, number));
+                let whole = leaf.m2 * mean(self.of_leaf(leaf.corners, number));
+                let of = |corners: [u32; 3]| quarter_m2 * mean(self.of_leaf(corners, number));
                 (whole - quarters.into_iter().map(of).sum::<f64>()).abs() / 4.0
             };
-            let changed: Vec<f64> = (0..kinds.len()).map(changed).collect();
+            let changed: Vec<f64> = (0..numbers).map(changed).collect();
             for corners in quarters {
                 self.leaves.push(Leaf { corners, m2: quarter_m2, changed: changed.clone() });
             }
@@ -212,7 +202,7 @@ impl Samples {
         Ok(())
     }
 
-    fn quarters(&mut self, [a, b, c]: [u32; 3]) -> [[u32; 3]; 4] {
+    pub(super) fn quarters(&mut self, [a, b, c]: [u32; 3]) -> [[u32; 3]; 4] {
         let [ab, bc, ca] = [[a, b], [b, c], [c, a]].map(|[one, other]| self.middle(one, other));
         [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
     }
@@ -236,7 +226,7 @@ impl Samples {
             order.sort_by(|one, other| one.0.total_cmp(&other.0).then(other.1.m2.total_cmp(&one.1.m2)));
             let kept = order.split_off(order.len().min(TOGETHER));
             self.leaves = kept.into_iter().map(|(_, leaf)| leaf).collect();
-            self.split(order.into_iter().map(|(_, leaf)| leaf).collect(), &[SumKind::Number], value, steps)?;
+            self.split(order.into_iter().map(|(_, leaf)| leaf).collect(), 1, value, steps)?;
             let now = self.lowest_spot();
             lowered = [lowered[1], self.values[lowest][0] - self.values[now][0]];
             lowest = now;
@@ -250,32 +240,16 @@ impl Samples {
     }
 }
 
-/// Whether splitting a triangle can change its part of the sum: its corners do not all have the same side of 0, or the
-/// same number.
-fn is_open(kind: SumKind, three: [f64; 3]) -> bool {
-    match kind {
-        SumKind::Part => three.iter().any(|value| *value >= 0.0) && three.iter().any(|value| *value < 0.0),
-        SumKind::Number => three.iter().any(|value| *value != three[0]),
-    }
-}
-
-/// Whether the number would pass 0 if it changed again by as much as it does in the triangle.
-fn is_near(kind: SumKind, three: [f64; 3]) -> bool {
-    let nearest = three.iter().map(|value| value.abs()).fold(f64::INFINITY, f64::min);
-    kind == SumKind::Part && nearest <= spread(three)
+/// Whether splitting a triangle changes nothing: its corners have the same number.
+fn is_level(three: [f64; 3]) -> bool {
+    three.iter().all(|value| *value == three[0])
 }
 
 /// The difference between the highest and the lowest of three.
-fn spread(three: [f64; 3]) -> f64 {
-    let [a, b, c] = three;
+pub(super) fn spread([a, b, c]: [f64; 3]) -> f64 {
     a.max(b).max(c) - a.min(b).min(c)
 }
 
-/// The part of a triangle in which a number is not below 0, half of it where the corners differ; or the number's mean.
-fn part(kind: SumKind, three: [f64; 3]) -> f64 {
-    match kind {
-        SumKind::Number => three.iter().sum::<f64>() / 3.0,
-        SumKind::Part if is_open(kind, three) => 0.5,
-        SumKind::Part => f64::from(u8::from(three[0] >= 0.0)),
-    }
+fn mean(three: [f64; 3]) -> f64 {
+    three.iter().sum::<f64>() / 3.0
 }

@@ -3,12 +3,11 @@
 use super::super::ground_heights::GroundHeights;
 use super::days::JudgedDays;
 use crate::judgement::{LitSpell, SpellBound, clipped};
-use crate::mesh::Mesh;
 use crate::rules::Spell;
 use crate::shadow::JUDGED_ABOVE_M;
 use crate::site::JudgedState;
 use crate::sun::SunError;
-use crate::sunlight::{Interval, IntervalBound, JudgedPoint, ProbeSearch};
+use crate::sunlight::{Interval, IntervalBound, JudgedPoint, ProbeSearch, WallFront};
 use glam::DVec3;
 
 /// A face that is no farther in front of a plane than this belongs to the wall in the plane, metres.
@@ -28,43 +27,27 @@ pub(super) type WallPlane = (DVec3, f64);
 impl StateSearch {
     /// A search for points within the bounds of these.
     pub(super) fn of(state: &JudgedState, points: &[DVec3]) -> StateSearch {
-        let components = (0..).zip(&state.casts).filter(|(_, casts)| **casts).map(|(at, _)| at).collect();
-        StateSearch::with(state, state.mesh.of_components(&state.casts), components, points)
+        StateSearch::with(state, ProbeSearch::new(state.mesh.of_components(&state.casts), &reach(points)), points)
     }
 
-    /// A search with only what lies in front of a plane: a wall in it, and what stands behind the wall's outer side,
-    /// are left out.
-    pub(super) fn before_plane(state: &JudgedState, wall: WallPlane, points: &[DVec3]) -> StateSearch {
-        let mesh = &*state.mesh;
-        let is_before = is_before(mesh, wall);
-        let of = |face: u32| mesh.components.partition_point(|component| component.faces.end <= face);
-        let keep = |face: u32| state.casts[of(face)] && is_before(face);
-        let mut components: Vec<u32> =
-            (0..mesh.faces.len() as u32).filter(|face| keep(*face)).map(|face| of(face) as u32).collect();
-        components.dedup();
-        StateSearch::with(state, mesh.of_faces(keep), components, points)
-    }
-
-    /// A search with a single component, only in front of a wall if one is given. It has no terrain, as its points have
-    /// been placed already.
-    pub(super) fn of_component(
-        state: &JudgedState,
-        component: u32,
-        wall: Option<WallPlane>,
-        points: &[DVec3],
-    ) -> StateSearch {
+    /// A search with a single component. It has no terrain, as its points have been placed already.
+    pub(super) fn of_component(state: &JudgedState, component: u32, points: &[DVec3]) -> StateSearch {
         let keep: Vec<bool> = (0..state.mesh.components.len()).map(|at| at == component as usize).collect();
-        let mut casters = state.mesh.of_components(&keep);
-        if let Some(wall) = wall {
-            casters = casters.of_faces(is_before(&casters, wall));
-        }
-        let search = ProbeSearch::new(casters, &reach(points));
+        let search = ProbeSearch::new(state.mesh.of_components(&keep), &reach(points));
         StateSearch { search, components: vec![component], ground: GroundHeights::plane(state.ground.level) }
     }
 
-    fn with(state: &JudgedState, casters: Mesh, components: Vec<u32>, points: &[DVec3]) -> StateSearch {
-        let ground = GroundHeights::of(&state.mesh, &state.ground, points);
-        StateSearch { search: ProbeSearch::new(casters, &reach(points)), components, ground }
+    /// Searches of two states, for points within the bounds of these.
+    pub(super) fn of_both(states: [&JudgedState; 2], points: &[DVec3]) -> [StateSearch; 2] {
+        let casters = states.map(|state| state.mesh.of_components(&state.casts));
+        let [now, before] = ProbeSearch::two(casters, &reach(points));
+        let [of_now, of_before] = states;
+        [StateSearch::with(of_now, now, points), StateSearch::with(of_before, before, points)]
+    }
+
+    fn with(state: &JudgedState, search: ProbeSearch, points: &[DVec3]) -> StateSearch {
+        let components = (0..).zip(&state.casts).filter(|(_, casts)| **casts).map(|(at, _)| at).collect();
+        StateSearch { search, components, ground: GroundHeights::of(&state.mesh, &state.ground, points) }
     }
 
     /// A point on a plane, judged a millimetre in front of it.
@@ -94,12 +77,39 @@ impl StateSearch {
         days: &JudgedDays<'_>,
         open: &[Vec<Spell>],
     ) -> Result<Vec<Vec<LitSpell>>, SunError> {
-        let intervals = days.intervals(&self.search, at)?;
+        self.lit_before((at, None), days, open)
+    }
+
+    /// The same. If a wall is given, only what lies in front of it takes the sun: the wall, and what stands behind its
+    /// outer side, are left out.
+    pub(super) fn lit_before(
+        &self,
+        (at, wall): (&JudgedPoint, Option<WallPlane>),
+        days: &JudgedDays<'_>,
+        open: &[Vec<Spell>],
+    ) -> Result<Vec<Vec<LitSpell>>, SunError> {
+        let intervals = days.intervals(&self.search, (at, wall.map(front)))?;
+        Ok(self.spells(intervals, days, open))
+    }
+
+    /// The same in two states.
+    pub(super) fn lit_in_both(
+        searches: [&StateSearch; 2],
+        (at, wall): ([&JudgedPoint; 2], Option<WallPlane>),
+        days: &JudgedDays<'_>,
+        open: &[Vec<Spell>],
+    ) -> Result<[Vec<Vec<LitSpell>>; 2], SunError> {
+        let [now, before] = searches;
+        let [of_now, of_before] = days.intervals_in_both([&now.search, &before.search], (at, wall.map(front)))?;
+        Ok([now.spells(of_now, days, open), before.spells(of_before, days, open)])
+    }
+
+    fn spells(&self, intervals: Vec<Vec<Interval>>, days: &JudgedDays<'_>, open: &[Vec<Spell>]) -> Vec<Vec<LitSpell>> {
         let of_day = |((found, windows), open): ((Vec<Interval>, &Vec<Spell>), &Vec<Spell>)| {
             let lit: Vec<LitSpell> = found.iter().map(|interval| self.spell(interval)).collect();
             clipped(&clipped(&lit, windows, SpellBound::Window), open, SpellBound::Cut)
         };
-        Ok(intervals.into_iter().zip(&days.windows).zip(open).map(of_day).collect())
+        intervals.into_iter().zip(&days.windows).zip(open).map(of_day).collect()
     }
 
     fn spell(&self, interval: &Interval) -> LitSpell {
@@ -123,8 +133,6 @@ fn reach(points: &[DVec3]) -> Vec<JudgedPoint> {
     points.iter().map(|point| JudgedPoint { point: *point, normal: None, below_ground_m: None }).collect()
 }
 
-/// Whether each face reaches in front of a plane.
-fn is_before(mesh: &Mesh, (normal, along): WallPlane) -> impl Fn(u32) -> bool {
-    let limit = along + IN_PLANE_M - normal.dot(mesh.origin);
-    move |face| mesh.corners(face as usize).iter().any(|corner| normal.dot(corner.as_dvec3()) > limit)
+fn front((normal, along_m): WallPlane) -> WallFront {
+    WallFront { normal, along_m: along_m + IN_PLANE_M }
 }

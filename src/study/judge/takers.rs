@@ -27,29 +27,25 @@ pub(super) struct ShadedPoints {
     pub(super) wall: Option<WallPlane>,
 }
 
-/// One day, and what was found for its receivers.
-pub(super) struct TakerSearch<'a> {
-    judging: &'a Judging<'a>,
+/// A day with its suns.
+pub(super) struct TakerDay<'a> {
     day: JudgedDays<'a>,
     suns: Vec<(i64, DVec3)>,
+}
+
+/// The components that may take the sun.
+pub(super) struct TakerSearch<'a> {
+    judging: &'a Judging<'a>,
     /// The casting components, each with its box.
     boxes: Vec<(u32, [DVec3; 2])>,
     reach: Vec<DVec3>,
-    /// The searches made so far, by component and wall.
-    searches: HashMap<(u32, Option<[u64; 4]>), StateSearch>,
+    /// The searches made so far, by component.
+    searches: HashMap<u32, StateSearch>,
 }
 
-fn key(wall: Option<WallPlane>) -> Option<[u64; 4]> {
-    wall.map(|(normal, along)| [normal.x, normal.y, normal.z, along].map(f64::to_bits))
-}
-
-impl<'a> TakerSearch<'a> {
-    /// Prepares the search of one day, for points within the bounds of these.
-    pub(super) fn new(
-        judging: &'a Judging<'a>,
-        day: JudgedDays<'a>,
-        reach: Vec<DVec3>,
-    ) -> Result<TakerSearch<'a>, StudyError> {
+impl<'a> TakerDay<'a> {
+    /// The suns of one day.
+    pub(super) fn new(judging: &Judging<'_>, day: JudgedDays<'a>) -> Result<TakerDay<'a>, SunError> {
         let site = judging.site;
         let air = site.refraction.then(|| Air::standard(site.place.elevation_m));
         let mut suns = Vec::new();
@@ -60,6 +56,14 @@ impl<'a> TakerSearch<'a> {
                 suns.push((secs, sky.at(time(&site.place, secs))?.to_sun));
             }
         }
+        Ok(TakerDay { day, suns })
+    }
+}
+
+impl<'a> TakerSearch<'a> {
+    /// A search for points within the bounds of these.
+    pub(super) fn new(judging: &'a Judging<'a>, reach: Vec<DVec3>) -> TakerSearch<'a> {
+        let site = judging.site;
         let mesh = &*site.now.mesh;
         let boxes = (0u32..)
             .zip(&mesh.components)
@@ -70,19 +74,21 @@ impl<'a> TakerSearch<'a> {
                 Some((at, [low, high]))
             })
             .collect();
-        Ok(TakerSearch { judging, day, suns, boxes, reach, searches: HashMap::new() })
+        TakerSearch { judging, boxes, reach, searches: HashMap::new() }
     }
 
-    /// Finds who takes the sun of a receiver, the greatest taker first.
-    pub(super) fn takers(&mut self, of: &ShadedPoints, shaded: &[Spell]) -> Result<Vec<Taker>, StudyError> {
-        let candidates = self.candidates(of, shaded);
-        let missing: Vec<u32> =
-            candidates.iter().copied().filter(|at| !self.searches.contains_key(&(*at, key(of.wall)))).collect();
+    /// Finds who takes the sun of a receiver on a day, the greatest taker first.
+    pub(super) fn takers(
+        &mut self,
+        day: &TakerDay<'_>,
+        of: &ShadedPoints,
+        shaded: &[Spell],
+    ) -> Result<Vec<Taker>, StudyError> {
+        let candidates = self.candidates(day, of, shaded);
+        let missing: Vec<u32> = candidates.iter().copied().filter(|at| !self.searches.contains_key(at)).collect();
         let state = &self.judging.site.now;
-        let built: Vec<_> = missing
-            .par_iter()
-            .map(|at| ((*at, key(of.wall)), StateSearch::of_component(state, *at, of.wall, &self.reach)))
-            .collect();
+        let built: Vec<_> =
+            missing.par_iter().map(|at| (*at, StateSearch::of_component(state, *at, &self.reach))).collect();
         self.searches.extend(built);
         // for each point, the shade of each candidate by itself
         let shades: Vec<Vec<Vec<Spell>>> = of
@@ -90,7 +96,10 @@ impl<'a> TakerSearch<'a> {
             .iter()
             .zip(&of.open)
             .map(|(point, open)| {
-                candidates.par_iter().map(|at| self.shade(*at, of.wall, point, open)).collect::<Result<_, SunError>>()
+                candidates
+                    .par_iter()
+                    .map(|at| self.shade(day, (*at, of.wall), point, open))
+                    .collect::<Result<_, SunError>>()
             })
             .collect::<Result<_, _>>()?;
         let mut takers = Vec::new();
@@ -117,22 +126,21 @@ impl<'a> TakerSearch<'a> {
     /// The spells in which a point would be in a component's shade if nothing else stood.
     fn shade(
         &self,
-        component: u32,
-        wall: Option<WallPlane>,
+        day: &TakerDay<'_>,
+        (component, wall): (u32, Option<WallPlane>),
         point: &JudgedPoint,
         open: &[Spell],
     ) -> Result<Vec<Spell>, SunError> {
-        let search = &self.searches[&(component, key(wall))];
-        let lit = search.lit(point, &self.day, std::slice::from_ref(&open.to_vec()))?;
+        let lit = self.searches[&component].lit_before((point, wall), &day.day, &[open.to_vec()])?;
         Ok(without(open, &spells_of(&lit[0])))
     }
 
     /// The components whose boxes stand in front of the sun in these spells.
-    fn candidates(&self, of: &ShadedPoints, shaded: &[Spell]) -> Vec<u32> {
+    fn candidates(&self, day: &TakerDay<'_>, of: &ShadedPoints, shaded: &[Spell]) -> Vec<u32> {
         let step = STEP_SECS as i64;
         let is_shaded = |secs: i64| shaded.iter().any(|spell| spell.start - step <= secs && secs < spell.end + step);
         let suns: Vec<DVec3> =
-            self.suns.iter().filter(|(secs, _)| is_shaded(*secs)).map(|(_, to_sun)| *to_sun).collect();
+            day.suns.iter().filter(|(secs, _)| is_shaded(*secs)).map(|(_, to_sun)| *to_sun).collect();
         let stands = |(_, bounds): &&(u32, [DVec3; 2])| {
             of.points.iter().any(|at| {
                 let wide = widened(bounds, at.point);

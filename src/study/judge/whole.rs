@@ -3,12 +3,12 @@
 use super::super::StudyError;
 use super::days::JudgedDays;
 use super::judging::{Judging, Steps};
+use super::open_spaces::of_dwellings;
 use super::receivers::{ShadedReceiver, deciding_day};
-use super::takers::{ShadedPoints, TakerSearch, sort};
+use super::takers::{ShadedPoints, TakerDay, TakerSearch, sort};
 use crate::judgement::{GroupKind, GroupRuling, JudgedThing, ReceiverRuling, Taker};
-use crate::message::Message;
+use crate::message::{Message, few};
 use crate::rules::{CompareWith, Finding, ResolvedRule, RuleDay, RuleReceiver, Ruling, Verdict, without};
-use crate::site::AreaSurface;
 use crate::sun::DayWindow;
 use glam::DVec3;
 use std::collections::{BTreeMap, HashMap};
@@ -82,13 +82,14 @@ pub(super) fn with_takers(
             reach.extend(shaded.parts.iter().flat_map(|part| &part.points).map(|at| at.point));
         }
     }
+    let mut search = TakerSearch::new(judging, reach);
     for (day, numbers) in by_day {
         let of_day =
             JudgedDays::new(judging.site, judging.rule.cuts, &judging.days.days[day..=day], &hulls[day..=day])?;
-        let mut search = TakerSearch::new(judging, of_day, reach.clone())?;
+        let of_day = TakerDay::new(judging, of_day)?;
         for number in numbers {
             let (receiver, shaded) = &mut receivers[number];
-            receiver.takers = takers(&mut search, shaded, day)?;
+            receiver.takers = takers(&mut search, shaded, (day, &of_day))?;
             steps.poll()?;
         }
     }
@@ -96,14 +97,18 @@ pub(super) fn with_takers(
 }
 
 /// The takers of a receiver, with the mean over its parts.
-fn takers(search: &mut TakerSearch<'_>, shaded: &ShadedReceiver, day: usize) -> Result<Vec<Taker>, StudyError> {
+fn takers(
+    search: &mut TakerSearch<'_>,
+    shaded: &ShadedReceiver,
+    (day, of_day): (usize, &TakerDay<'_>),
+) -> Result<Vec<Taker>, StudyError> {
     let mut sums: HashMap<u32, [f64; 2]> = HashMap::new();
     for part in &shaded.parts {
         let open = part.open[day].clone();
         let dark = without(&open, &part.lit[day]);
         let points =
             ShadedPoints { points: part.points.clone(), open: vec![open; part.points.len()], wall: shaded.wall };
-        for taker in search.takers(&points, &dark)? {
+        for taker in search.takers(of_day, &points, &dark)? {
             let sum = sums.entry(taker.component).or_default();
             sum[0] += taker.alone_secs;
             sum[1] += taker.with_others_secs;
@@ -126,15 +131,22 @@ pub(super) fn notes(judging: &Judging<'_>, receivers: &[ReceiverRuling]) -> Vec<
     let site = judging.site;
     match &judging.rule.receiver {
         RuleReceiver::Area { least_width_m } => {
-            let is_of_faces = |surface: &AreaSurface| matches!(surface, AreaSurface::Faces(_));
-            if *least_width_m > 0.0 && site.areas.iter().any(|area| is_of_faces(&area.surface)) {
-                notes.push(format!(
-                    "parts narrower than {least_width_m} m do not count, but the width of areas that are a component's faces is \
-                     not tested"
-                ));
+            let narrow = |receiver: &ReceiverRuling| {
+                let m2 = receiver.area.map_or(0.0, |area| area.narrow_m2);
+                (m2 > 0.0).then(|| format!("{m2:.2} m² of {:?}", receiver.name))
+            };
+            let narrow: Vec<String> = receivers.iter().filter_map(narrow).collect();
+            if !narrow.is_empty() {
+                let of = few(narrow);
+                notes.push(format!("parts narrower than {least_width_m} m do not count, and are left out: {of}"));
             }
         }
-        RuleReceiver::Window { .. } => {
+        receiver @ RuleReceiver::Window { open_spaces, .. } => {
+            let others = site.areas.len() - of_dwellings(receiver, site).len();
+            if open_spaces.is_some() && others > 0 {
+                let areas = if others == 1 { "1 area has".to_owned() } else { format!("{others} areas have") };
+                notes.push(format!("{areas} no dwelling, and this rule does not judge them"));
+            }
             let inside = receivers.iter().any(|receiver| receiver.kind == JudgedThing::Window)
                 && site.windows.iter().any(|window| is_inside(judging, window));
             if inside {

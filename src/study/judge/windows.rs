@@ -10,7 +10,7 @@ use crate::site::JudgedWindow;
 use crate::sun::SunError;
 use glam::DVec3;
 use rayon::prelude::*;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 
 /// The number of windows that are searched between two calls of the listener.
 const TOGETHER: usize = 64;
@@ -40,48 +40,29 @@ pub(super) fn windows(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Resul
         })
         .collect();
     let open = open_by_normal(judging, windows);
-    let mut walls: BTreeMap<Option<[i64; 4]>, Vec<usize>> = BTreeMap::new();
-    for (number, spot) in spots.iter().enumerate() {
-        walls.entry(wall_plane(spot).map(rounded)).or_default().push(number);
-    }
-    let mut found: Vec<Option<PointLight>> = vec![None; windows.len()];
-    for numbers in walls.into_values() {
-        let points: Vec<DVec3> = numbers.iter().flat_map(|number| spots[*number].points.iter().copied()).collect();
-        let searches = match numbers.first().and_then(|first| wall_plane(&spots[*first])) {
-            Some(wall) => judging.both(|state| StateSearch::before_plane(state, wall, &points)),
-            None => judging.states(&points),
+    let points: Vec<DVec3> = spots.iter().flat_map(|spot| spot.points.iter().copied()).collect();
+    let searches = judging.states(&points);
+    let asked: Vec<(&JudgedWindow, &WindowSpot)> = windows.iter().zip(&spots).collect();
+    let mut found: Vec<PointLight> = Vec::with_capacity(windows.len());
+    for some in asked.chunks(TOGETHER) {
+        let of = |(window, spot): &(&JudgedWindow, &WindowSpot)| {
+            light(judging, &searches, (window, spot), &open[&bits(window.outward)])
         };
-        for some in numbers.chunks(TOGETHER) {
-            let of = |number: &usize| {
-                let (window, spot) = (&windows[*number], &spots[*number]);
-                light(judging, &searches, (window, spot), &open[&bits(window.outward)])
-            };
-            let lights: Vec<PointLight> = some.par_iter().map(of).collect::<Result<_, _>>()?;
-            some.iter().zip(lights).for_each(|(number, light)| found[*number] = Some(light));
-            steps.done(some.len())?;
-        }
+        found.extend(some.par_iter().map(of).collect::<Result<Vec<_>, SunError>>()?);
+        steps.done(some.len())?;
     }
-    let of = |(spot, light): (WindowSpot, Option<PointLight>)| {
-        let none = || PointLight { open: Vec::new(), now: Vec::new(), before: None };
-        WindowLight { spot, light: light.unwrap_or_else(none) }
-    };
-    Ok(spots.into_iter().zip(found).map(of).collect())
+    Ok(spots.into_iter().zip(found).map(|(spot, light)| WindowLight { spot, light }).collect())
 }
 
 fn bits(normal: DVec3) -> [u64; 3] {
     normal.to_array().map(f64::to_bits)
 }
 
-/// The key of a wall's search: walls in the same plane, to a millimetre, share one.
-fn rounded((normal, along): WallPlane) -> [i64; 4] {
-    let normal = (normal * 1e6).round();
-    [normal.x as i64, normal.y as i64, normal.z as i64, (along * 1e3).round() as i64]
-}
-
 fn open_by_normal(judging: &Judging<'_>, windows: &[JudgedWindow]) -> OpenByNormal {
     let mut normals: Vec<DVec3> = windows.iter().map(|window| window.outward).collect();
     normals.sort_by_key(|normal| bits(*normal));
-    normals.dedup();
+    // by their bits, as the keys are: −0 equals 0
+    normals.dedup_by_key(|normal| bits(*normal));
     normals.into_par_iter().map(|normal| (bits(normal), judging.days.open(Some(normal)))).collect()
 }
 
@@ -109,14 +90,11 @@ fn light_of_point(
     (window, spot, point): (&JudgedWindow, &WindowSpot, DVec3),
     open: &[Vec<Spell>],
 ) -> Result<PointLight, SunError> {
-    let of_state = |search: &StateSearch| -> Result<_, SunError> {
-        let at = match spot.through {
-            Some(_) => search.free(point, Some(window.outward)),
-            None => search.in_plane(point, window.outward),
-        };
-        search.lit(&at, judging.days, open)
+    let at = |search: &StateSearch| match spot.through {
+        Some(_) => search.free(point, Some(window.outward)),
+        None => search.in_plane(point, window.outward),
     };
-    let (mut now, mut before) = (of_state(&searches.now)?, searches.before.as_ref().map(of_state).transpose()?);
+    let (mut now, mut before) = searches.lit(at, wall_plane(spot), judging.days, open)?;
     let mut open = open.to_vec();
     if let Some(opening) = &spot.through {
         open = judging.days.before_planes(&open, &opening.planes_from(point));
