@@ -8,6 +8,7 @@ mod asked_table;
 mod before;
 mod facades;
 mod glass;
+mod glazing;
 mod load;
 mod outline_file;
 mod plot;
