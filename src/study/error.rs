@@ -218,6 +218,12 @@ fn no_device(why: &str) -> Message {
 }
 
 impl StudyError {
+    /// What keeping given hours needs and a site lacks.
+    pub(crate) fn hours_need(needs: &[RuleNeed]) -> StudyError {
+        let what = needs.iter().map(|need| need.what.as_str()).collect::<Vec<_>>().join("; ");
+        StudyError::Rule(Message { what: pieces![Field::Hours, format!(" needs {what}")], hint: to_add(needs) })
+    }
+
     /// Whether the command line was wrong (exit status 2).
     pub fn is_wrong_use(&self) -> bool {
         use StudyError::{Conflict, LittleMemory, Misfit, NoEnvelope, Rule, TooManyCells, TooManyRays};
