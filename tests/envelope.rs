@@ -13,7 +13,7 @@ use gnomon::shadow::ray_cast::RayCaster;
 use gnomon::site::Ground;
 use gnomon::study::envelope::{CountedHeights, DaysNeeded, EnvelopeOutcome, KeptPlace, KeptThing, SunNeeded, envelope};
 use gnomon::sun::{Place, Sky, delta_t_secs};
-use gnomon::sunlight::{Headroom, KeptSeconds, RayStart, roomiest};
+use gnomon::sunlight::{Headroom, KeptSeconds, RaySource, roomiest};
 use gnomon::view::Grid;
 use serde_json::Value;
 use std::ops::ControlFlow;
@@ -235,7 +235,7 @@ fn the_hours_that_leave_the_most_room_are_kept() {
     let sky = sky(&place_on_earth);
     let start = secs("2026-03-21T07:00:00Z");
     let heights: Vec<f64> =
-        (start..start + 10 * 3600).map(|secs| plot.lowest(RayStart::point(WINDOW), to_sun(&sky, secs))).collect();
+        (start..start + 10 * 3600).map(|secs| plot.lowest(RaySource::point(WINDOW), to_sun(&sky, secs))).collect();
     let [at_once, any] = [true, false].map(|at_once| {
         let things = [thing(vec![place(vec![WINDOW], 8 * 3600, at_once)], 1.0)];
         found(&things, DaysNeeded::Each).kept[0].places[0].1[0].clone()

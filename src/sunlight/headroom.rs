@@ -4,7 +4,7 @@
 //! A cell is a column with upright walls, and rays to the sun rise, so a ray is lowest over a cell where it enters.
 //! Columns are widened a little, so that no rounding lets a ray pass through an edge.
 
-use super::sun_slopes::SunSlopes;
+use super::sun_slopes::{SpellSlopes, SunSlopes};
 use crate::view::Grid;
 use glam::{DVec2, DVec3};
 use std::ops::Range;
@@ -36,7 +36,7 @@ struct PlotSpans {
 
 /// Where rays to the sun begin.
 #[derive(Clone, Copy, Debug)]
-pub struct RayStart {
+pub struct RaySource {
     /// The point, or the middle of what it stands for.
     pub at: DVec3,
     /// The radius in plan of what it stands for, metres: with its own ray, all that begin as far around it at its height
@@ -70,7 +70,7 @@ impl Headroom {
     }
 
     /// The directions in which a place may see the plot.
-    pub fn sight(&self, from: RayStart) -> PlotSight {
+    pub fn sight(&self, from: RaySource) -> PlotSight {
         // so that rounding refuses no ray
         let around_m = 2.0 * WIDER_M + from.around_m;
         let PlotSpans { rows, columns, .. } = &self.spans;
@@ -92,7 +92,7 @@ impl Headroom {
     }
 
     /// The least z of a ray over the plot: where it enters the plot's first cell.
-    pub fn lowest(&self, from: RayStart, to_sun: DVec3) -> f64 {
+    pub fn lowest(&self, from: RaySource, to_sun: DVec3) -> f64 {
         let Some((ray, ends)) = self.over_plot(from, to_sun) else { return f64::INFINITY };
         let mut first = f64::INFINITY;
         self.each_row(ray, ends, |row, columns, ends| {
@@ -111,13 +111,14 @@ impl Headroom {
     }
 
     /// Lowers the heights so that a place's rays stay free in some spells: from a second to the one after the last.
-    pub fn keep(&mut self, from: RayStart, spells: &[[i64; 2]], slopes: &SunSlopes) {
+    pub fn keep(&mut self, from: RaySource, spells: &[[i64; 2]], slopes: &SunSlopes) {
         let spells: Vec<[usize; 2]> = spells.iter().map(|spell| slopes.indices(*spell)).collect();
+        let sides = [0, 1].map(|axis| slopes.in_spells(axis, &spells));
         for row in self.spans.rows.clone() {
             for column in self.spans.of_row[row as usize].clone() {
                 let cell = self.cell(column, row);
                 if self.inside[cell] {
-                    let lowest = self.lowest_over(from, [column, row], (&spells, slopes), self.top[cell]);
+                    let lowest = self.lowest_over(from, [column, row], &sides, self.top[cell]);
                     self.top[cell] = self.top[cell].min(lowest);
                 }
             }
@@ -127,28 +128,30 @@ impl Headroom {
     /// The height of a place's lowest ray over a cell. It need not be found if it is not below `top`.
     fn lowest_over(
         &self,
-        from: RayStart,
+        from: RaySource,
         [column, row]: [u32; 2],
-        (spells, slopes): (&[[usize; 2]], &SunSlopes),
+        sides: &[[Option<SpellSlopes<'_>>; 2]; 2],
         top: f64,
     ) -> f64 {
         let Grid { west, north, cell, .. } = self.grid;
-        let RayStart { at: from, around_m } = from;
+        let RaySource { at: from, around_m } = from;
         let low = DVec2::new(west + f64::from(column) * cell, north - f64::from(row + 1) * cell) - from.truncate();
         let (low, high) = (low - WIDER_M - around_m, low + cell + WIDER_M + around_m);
         if low.cmple(DVec2::ZERO).all() && high.cmpge(DVec2::ZERO).all() {
-            return if spells.is_empty() { f64::INFINITY } else { from.z };
+            // a ray begins over it
+            return if sides.iter().flatten().any(Option::is_some) { from.z } else { f64::INFINITY };
         }
         let mut lowest = f64::INFINITY;
         for axis in 0..2 {
             // a ray enters through the sides that face its place
-            let (away, is_along) = if low[axis] > 0.0 { (low[axis], true) } else { (-high[axis], false) };
-            let side = slopes.side(axis, is_along);
+            let (away, side) =
+                if low[axis] > 0.0 { (low[axis], &sides[axis][0]) } else { (-high[axis], &sides[axis][1]) };
+            let Some(side) = side else { continue };
             if away <= 0.0 || from.z + away * side.least_up >= lowest.min(top) {
                 continue;
             }
             let across = [low[1 - axis] / away, high[1 - axis] / away];
-            let least = side.least(across, spells);
+            let least = side.least(across);
             lowest = lowest.min(least.map_or(f64::INFINITY, |up| from.z + away * up));
         }
         lowest
@@ -161,7 +164,7 @@ impl Headroom {
     }
 
     /// By how much a ray would lower the heights, none of which counts above `most`: a sum over cells, metres.
-    pub fn cut(&self, from: RayStart, to_sun: DVec3, most: f64) -> f64 {
+    pub fn cut(&self, from: RaySource, to_sun: DVec3, most: f64) -> f64 {
         let mut sum = 0.0;
         self.over(from, to_sun, |cell, height| sum += (self.top[cell].min(most) - height).max(0.0));
         sum
@@ -178,7 +181,7 @@ impl Headroom {
     }
 
     /// Calls back for each cell of the plot over which a ray passes, with the ray's height where it enters.
-    fn over(&self, from: RayStart, to_sun: DVec3, mut each: impl FnMut(usize, f64)) {
+    fn over(&self, from: RaySource, to_sun: DVec3, mut each: impl FnMut(usize, f64)) {
         let Some((ray, ends)) = self.over_plot(from, to_sun) else { return };
         self.each_row(ray, ends, |row, columns, ends| {
             for column in columns {
@@ -193,7 +196,7 @@ impl Headroom {
 
     /// A ray in cells, and the part of it over the rectangle around the plot. A ray that does not rise belongs to no
     /// sun.
-    fn over_plot(&self, from: RayStart, to_sun: DVec3) -> Option<(PlanRay, [f64; 2])> {
+    fn over_plot(&self, from: RaySource, to_sun: DVec3) -> Option<(PlanRay, [f64; 2])> {
         if to_sun.z <= 0.0 || self.spans.rows.is_empty() {
             return None;
         }
@@ -220,10 +223,10 @@ impl Headroom {
     }
 }
 
-impl RayStart {
+impl RaySource {
     /// A single point.
-    pub fn point(at: DVec3) -> RayStart {
-        RayStart { at, around_m: 0.0 }
+    pub fn point(at: DVec3) -> RaySource {
+        RaySource { at, around_m: 0.0 }
     }
 }
 

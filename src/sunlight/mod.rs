@@ -16,7 +16,7 @@ mod sky_raster;
 mod sun_path;
 mod sun_slopes;
 
-pub use headroom::{Headroom, PlotSight, RayStart};
+pub use headroom::{Headroom, PlotSight, RaySource};
 pub use kept_seconds::{KeptSeconds, RayHeight, roomiest, spells};
 pub use patches::{Exposure, PatchHours};
 pub use probes::{Interval, IntervalBound, JudgedPoint, ProbeIntervals, SunDay, Sunlight, judged, longest, secs};

@@ -18,10 +18,20 @@ pub struct SunSlopes {
 
 /// The slopes towards one side, while the sun stands on that side.
 #[derive(Clone, Debug)]
-pub(super) struct SideSlopes {
+struct SideSlopes {
     runs: Vec<SlopeRun>,
-    /// The least slope upward at all.
+}
+
+/// The slopes towards one side in some spells.
+#[derive(Clone, Debug)]
+pub(super) struct SpellSlopes<'a> {
+    side: &'a SideSlopes,
+    /// Pairs of indices, in order of time.
+    spells: &'a [[usize; 2]],
+    /// The least slope upward.
     pub(super) least_up: f64,
+    /// The least and the greatest slope across.
+    across: [f64; 2],
 }
 
 /// Seconds in which the slope across only rises, or only falls.
@@ -41,9 +51,9 @@ impl SunSlopes {
         SunSlopes { first, sides: sides.map(|(axis, sign)| SideSlopes::of(to_sun, axis, sign)) }
     }
 
-    /// The slopes along an axis, 0 for east and 1 for north, or against it.
-    pub(super) fn side(&self, axis: usize, is_along: bool) -> &SideSlopes {
-        &self.sides[2 * axis + usize::from(!is_along)]
+    /// The slopes in some spells along an axis, 0 for east and 1 for north, and against it; `None` where there are none.
+    pub(super) fn in_spells<'a>(&'a self, axis: usize, spells: &'a [[usize; 2]]) -> [Option<SpellSlopes<'a>>; 2] {
+        [&self.sides[2 * axis], &self.sides[2 * axis + 1]].map(|side| SpellSlopes::of(side, spells))
     }
 
     /// The indices of a spell's seconds.
@@ -78,15 +88,35 @@ impl SideSlopes {
             }
             goes_on = true;
         }
-        let least_up = runs.iter().flat_map(|(_, ups)| ups).copied().fold(f64::INFINITY, f64::min);
         let with_table = |(run, ups): (SlopeRun, Vec<f64>)| SlopeRun { least_up: table(ups), ..run };
-        SideSlopes { runs: runs.into_iter().map(with_table).collect(), least_up }
+        SideSlopes { runs: runs.into_iter().map(with_table).collect() }
+    }
+}
+
+impl<'a> SpellSlopes<'a> {
+    fn of(side: &'a SideSlopes, spells: &'a [[usize; 2]]) -> Option<SpellSlopes<'a>> {
+        let all = [f64::NEG_INFINITY, f64::INFINITY];
+        let mut of = SpellSlopes { side, spells, least_up: f64::INFINITY, across: [f64::INFINITY, f64::NEG_INFINITY] };
+        for run in &side.runs {
+            for [start, end] in run.meeting(all, spells) {
+                of.least_up = of.least_up.min(run.least_up(start, end));
+                for across in [run.across[start], run.across[end - 1]] {
+                    of.across = [of.across[0].min(across), of.across[1].max(across)];
+                }
+            }
+        }
+        of.least_up.is_finite().then_some(of)
     }
 
-    /// The least slope upward among the seconds of some spells whose slope across lies between two values; `None` if there is
-    /// none. Spells are pairs of indices, in order of time.
-    pub(super) fn least(&self, across: [f64; 2], spells: &[[usize; 2]]) -> Option<f64> {
-        self.runs.iter().filter_map(|run| run.least(across, spells)).reduce(f64::min)
+    /// The least slope upward among the seconds whose slope across lies between two values; `None` if there is none.
+    pub(super) fn least(&self, across: [f64; 2]) -> Option<f64> {
+        if across[0] > self.across[1] || across[1] < self.across[0] {
+            return None;
+        }
+        let of_run = |run: &SlopeRun| {
+            run.meeting(across, self.spells).map(|[start, end]| run.least_up(start, end)).reduce(f64::min)
+        };
+        self.side.runs.iter().filter_map(of_run).reduce(f64::min)
     }
 }
 
@@ -97,7 +127,9 @@ impl SlopeRun {
         self.across.len() == 1 || if self.is_rising { across >= last } else { across <= last }
     }
 
-    fn least(&self, [low, high]: [f64; 2], spells: &[[usize; 2]]) -> Option<f64> {
+    /// The seconds of the run in which the slope across lies between two values, as far as they are in some spells: pairs
+    /// of indices within the run.
+    fn meeting(&self, [low, high]: [f64; 2], spells: &[[usize; 2]]) -> impl Iterator<Item = [usize; 2]> {
         let all = &self.across;
         let [start, end] = match self.is_rising {
             true => [all.partition_point(|across| *across < low), all.partition_point(|across| *across <= high)],
@@ -105,14 +137,15 @@ impl SlopeRun {
         };
         let [from, to] = [start + self.first, end + self.first];
         let first = spells.partition_point(|[_, end]| *end <= from);
-        let meeting = spells[first..].iter().take_while(|[start, _]| *start < to);
-        let least = |spell: &[usize; 2]| {
-            let [start, end] = [spell[0].max(from) - self.first, spell[1].min(to) - self.first];
-            let level = end.checked_sub(start)?.checked_ilog2()? as usize;
-            let least = &self.least_up[level];
-            Some(least[start].min(least[end - (1 << level)]))
-        };
-        meeting.filter_map(least).reduce(f64::min)
+        let meeting = spells[first..].iter().take_while(move |[start, _]| *start < to);
+        let within = move |[start, end]: &[usize; 2]| [(*start).max(from) - self.first, (*end).min(to) - self.first];
+        meeting.map(within).filter(|[start, end]| start < end)
+    }
+
+    fn least_up(&self, start: usize, end: usize) -> f64 {
+        let level = (end - start).ilog2() as usize;
+        let least = &self.least_up[level];
+        least[start].min(least[end - (1 << level)])
     }
 }
 

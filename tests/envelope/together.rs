@@ -4,7 +4,7 @@ use super::{HEIGHTS, found, place, plot, rays, secs, thing};
 use glam::{DVec3, dvec3};
 use gnomon::rules::{Spell, total_secs};
 use gnomon::study::envelope::{DaysNeeded, EnvelopeOutcome, KeptPlace, KeptThing, SunNeeded};
-use gnomon::sunlight::RayStart;
+use gnomon::sunlight::RaySource;
 
 /// A place that has sun in these spells of the day, of which it must keep so much.
 fn with(point: DVec3, lit: &[[&str; 2]], secs_needed: i64) -> KeptPlace {
@@ -45,7 +45,7 @@ fn sharing_hours_leaves_more() {
     // the heights are those of the rays that are kept, and no choice leaves more than the first window does
     let lowest = rays(&things, &both)
         .iter()
-        .map(|(from, to_sun)| plot().lowest(RayStart::point(*from), *to_sun))
+        .map(|(from, to_sun)| plot().lowest(RaySource::point(*from), *to_sun))
         .fold(f64::INFINITY, f64::min);
     let least = both.headroom.top.iter().copied().fold(f64::INFINITY, f64::min);
     assert!((lowest - least).abs() < 1e-9, "{lowest} is not {least}");

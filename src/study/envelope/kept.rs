@@ -1,7 +1,7 @@
 //! What must keep its sun, and the sun of it that is kept.
 
 use crate::rules::Spell;
-use crate::sunlight::RayStart;
+use crate::sunlight::RaySource;
 use glam::DVec3;
 
 /// A thing that must keep its sun.
@@ -63,8 +63,8 @@ pub struct KeptSun {
 
 impl KeptPlace {
     /// Where its rays begin.
-    pub(super) fn starts(&self) -> impl Iterator<Item = RayStart> + '_ {
-        self.points.iter().map(|at| RayStart { at: *at, around_m: self.around_m })
+    pub(super) fn starts(&self) -> impl Iterator<Item = RaySource> + '_ {
+        self.points.iter().map(|at| RaySource { at: *at, around_m: self.around_m })
     }
 }
 

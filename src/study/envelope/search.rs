@@ -168,7 +168,8 @@ impl EnvelopeSearch<'_> {
             if !on_day.is_empty() {
                 let places = on_day.iter().map(|one| one.of(self.things, &alone.kept).0);
                 let suns = SunsOfDay::of(self.sky, places, day)?;
-                left = choose_together(left, (self.things, &mut kept), (&on_day, day, &suns), heights.most);
+                left =
+                    choose_together(left, (self.things, &mut kept), (&on_day, day, &suns), (heights.most, of.stride()));
             }
             poll(day, on_event)?;
         }

@@ -12,8 +12,10 @@ use crate::rules::total_secs;
 use crate::sunlight::{Headroom, RayHeight, roomiest};
 use rayon::prelude::*;
 
-/// The most rays that are compared with the heights; more would take minutes.
-const MOST_COMPARED: i64 = 20_000_000;
+/// The most days of places that choose together; more would take minutes.
+const MOST_TOGETHER: usize = 300;
+/// About so many rays are compared with the heights: if there are more, one of several seconds each time.
+const MOST_COMPARED: i64 = 4_000_000;
 
 /// A place and a day of it whose sun is kept.
 #[derive(Clone, Copy)]
@@ -62,10 +64,15 @@ impl KeptDays {
         days
     }
 
-    /// Whether places can share what they keep, and are few enough to be compared.
+    /// Whether places can share what they keep, and are few enough.
     pub(super) fn can_share(&self) -> bool {
+        !self.free.is_empty() && self.fixed.len() + self.free.len() > 1 && self.free.len() <= MOST_TOGETHER
+    }
+
+    /// The number of seconds of which one is compared.
+    pub(super) fn stride(&self) -> usize {
         let rays = self.free.iter().map(|one| one.rays).fold(0i64, i64::saturating_add);
-        !self.free.is_empty() && self.fixed.len() + self.free.len() > 1 && rays <= MOST_COMPARED
+        rays.div_euclid(MOST_COMPARED) as usize + 1
     }
 
     /// Those whose sun every choice keeps, as far as that is certain.
@@ -79,7 +86,7 @@ pub(super) fn choose_together(
     mut left: Headroom,
     (things, kept): (&[KeptThing], &mut [KeptOf]),
     (free, day, suns): (&[KeptDay], usize, &SunsOfDay),
-    most: f64,
+    (most, stride): (f64, usize),
 ) -> Headroom {
     let slopes = suns.slopes();
     for one in free {
@@ -87,7 +94,7 @@ pub(super) fn choose_together(
         if sun.day != day {
             continue;
         }
-        let better = choose_below(&left, place, sun, suns, most);
+        let better = choose_below(&left, (place, sun), suns, (most, stride));
         place.starts().for_each(|from| left.keep(from, &better.seconds(), &slopes));
         let [thing, place, of_day] = one.at;
         kept[thing].places[place].1[of_day] = better;
@@ -96,14 +103,20 @@ pub(super) fn choose_together(
 }
 
 /// The seconds that a place keeps below some heights: those of which each lowers them the least; of equal ones the first.
-fn choose_below(left: &Headroom, place: &KeptPlace, sun: &KeptSun, suns: &SunsOfDay, most: f64) -> KeptSun {
+fn choose_below(
+    left: &Headroom,
+    (place, sun): (&KeptPlace, &KeptSun),
+    suns: &SunsOfDay,
+    (most, stride): (f64, usize),
+) -> KeptSun {
     let needed: &SunNeeded = &place.days[sun.day];
     let all: Vec<i64> = seconds(needed).collect();
-    let cut = |secs: &i64| -> RayHeight {
-        let of = |from| left.cut(from, suns.at(*secs), most);
-        (*secs, -place.starts().map(of).sum::<f64>())
+    let cuts = |some: &[i64]| -> Vec<RayHeight> {
+        let middle = suns.at(some[some.len() / 2]);
+        let cut: f64 = place.starts().map(|from| left.cut(from, middle, most)).sum();
+        some.iter().map(|secs| (*secs, -cut)).collect()
     };
-    let cuts: Vec<RayHeight> = all.par_iter().map(cut).collect();
+    let cuts: Vec<RayHeight> = all.par_chunks(stride).flat_map_iter(cuts).collect();
     let Some(mut found) = roomiest(&cuts, needed.secs as usize, needed.at_once) else { return sun.clone() };
     let kept = || found.spells.iter().flat_map(|[start, end]| *start..*end);
     let heights = kept().flat_map(|secs| place.starts().map(move |from| left.lowest(from, suns.at(secs))));
