@@ -186,7 +186,7 @@ impl Worded for StudyError {
             ],
             StudyError::NoDevice(why) => no_device(why),
             StudyError::NoDay => message![
-                "there is no sun at any of the study's instants, so there is nothing to compare";
+                "there is no sun at any of the study's instants, so there is nothing to compare or to keep";
                 "choose a window by day", Piece::Where(Field::From, pieces![" with ", Field::From, " and ", Field::To])
             ],
             StudyError::Sun(error) => error.message(),

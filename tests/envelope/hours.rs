@@ -92,6 +92,9 @@ fn mistakes_about_hours_are_told() {
         fails(path, &format!("envelope . --hours {hours}"), 2, &["--hours", "at most 24"]);
     }
     fails(path, "envelope . --hours 2 --from 10:00 --to 10:00", 1, &["--to"]);
+    fails(path, "envelope . --hours 2 --from 22:00 --to 23:00 --quiet", 1, &["no sun", "--from"]);
+    // the plot is smaller than a cell
+    fails(path, "envelope . --hours 2 --cell 100 --quiet", 2, &["--cell", "on the plot", "smaller"]);
     // everything that lacks, in one line
     let bare = "[[model]]\npath = \"tower.glb\"\n[study]\ndate = 2026-03-21\n";
     write(path.join("site.toml"), format!("{PLACE}{bare}")).unwrap();

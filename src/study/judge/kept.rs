@@ -108,7 +108,9 @@ pub fn kept_by(
     let days = JudgedDays::new(site, cuts, &calendar, &hulls)?;
     let judgings: Vec<Judging<'_>> =
         rules.iter().map(|rule| Judging { site, rule, days: &days, before: None }).collect();
-    let Some(first) = hulls.first() else { return Err(StudyError::NoDay) };
+    // by night nothing bounds the heights, which would look like an answer
+    let has_sun = days.open(None).iter().any(|spells| !spells.is_empty());
+    let Some(first) = hulls.first().filter(|_| has_sun) else { return Err(StudyError::NoDay) };
     let mut steps = Steps::new(on_event, judgings.iter().map(Judging::count).sum(), first.from)?;
     let mut things = Vec::new();
     for judging in &judgings {
