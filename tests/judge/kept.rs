@@ -1,10 +1,10 @@
 //! What is protected on a site keeps its sun when the envelope is built: windows, areas, façades and lines together.
 
-use super::{area, corner, nothing, site, window};
+use super::{area, corner, judged, nothing, site, window};
 use glam::{DVec3, dvec3};
 use gnomon::export::envelope::{EnvelopeMap, EnvelopeSolid};
 use gnomon::mesh::Part;
-use gnomon::rules::{Rule, SunDemand, built_in_text, common, total_secs};
+use gnomon::rules::{Rule, SunDemand, Verdict, built_in_text, common, total_secs};
 use gnomon::site::{JudgedFacade, JudgedPlot, JudgedSite, PlotSide};
 use gnomon::study::envelope::{CountedHeights, DaysNeeded, EnvelopeOutcome, KeptSun, KeptThing, SunNeeded, envelope};
 use gnomon::study::judge::{kept_by, plot_to_build_on};
@@ -14,6 +14,7 @@ use gnomon::sunlight::Headroom;
 use std::ops::ControlFlow;
 
 const HIGHEST_M: f64 = 9.0;
+const JAPAN: [(&str, &str); 3] = [("plane", "1.5"), ("near", "3h"), ("far", "2h")];
 
 /// A plot, and around it a window, a lawn and a façade; lines around it are judged, too.
 fn asked(parts: Vec<Part>) -> JudgedSite {
@@ -34,8 +35,7 @@ fn protected(site: &JudgedSite) -> Vec<KeptThing> {
     let reading = |text: &str| text.parse().expect("a reading");
     let days = [DayWindow::on(&site.place, day, Some(&reading("08:00")), Some(&reading("16:00"))).expect("a window")];
     let rule = Rule::parse("jp", built_in_text("jp-bsa-56-2").expect("built in")).expect("a rule");
-    let options = [("plane", "1.5"), ("near", "3h"), ("far", "2h")];
-    let resolved = rule.resolve(&options).expect("options");
+    let resolved = rule.resolve(&JAPAN).expect("options");
     let mut things = Vec::new();
     for demand in [SunDemand::Hours(6 * 3600, &days), SunDemand::Rule(&rule.source, &resolved)] {
         assert_eq!(plot_to_build_on(site, demand).expect("a plot").border.len(), 4);
@@ -103,4 +103,8 @@ fn windows_areas_facades_and_lines_keep_their_sun() {
     // shows that the second can fail
     assert_eq!([takes(0.0), takes(-1.0 + 0.5)], [0, 0]);
     assert!(takes(0.5) > 0);
+    // of the lines, more places are judged than are kept
+    let verdict =
+        |higher: f64| judged(&asked(vec![built(&empty, &outcome.headroom, higher)]), "jp-bsa-56-2", &JAPAN).verdict;
+    assert_eq!(verdict(0.0), Verdict::Pass);
 }

@@ -10,7 +10,7 @@ use super::needs;
 use super::point_light::PointLight;
 use super::samples::AreaSpot;
 use super::windows::{WindowLight, windows};
-use crate::judgement::{DeemedBorder, PartTriangle, triangles, triangles_of_faces};
+use crate::judgement::{DeemedBorder, PartTriangle, PlotSpot, triangles, triangles_of_faces};
 use crate::rules::{Band, HeightOver, KEEP_HOURS, ResolvedRule, RuleDay, RuleError, RuleNeed, RuleReceiver, SunDemand};
 use crate::shadow::JUDGED_ABOVE_M;
 use crate::site::{AreaSurface, JudgedArea, JudgedPlot, JudgedSite, JudgedWindow};
@@ -251,18 +251,19 @@ fn of_lines(judging: &Judging<'_>, highest_m: f64, steps: &mut Steps<'_, '_>) ->
     let mut things = Vec::new();
     for (number, band) in bands.iter().enumerate() {
         let demand = RuleDemand::of(judging.rule, Some(number))?;
-        let points: Vec<DVec3> = border
-            .spots(*band, band.from_m + reach_m, SPACING_M)
-            .into_iter()
-            .map(|spot| spot.at.extend(base + height_m + spot.raised_m))
-            .collect();
-        let states = judging.states(&points);
-        let of = |point: &DVec3| -> Result<_, StudyError> {
-            let judged = states.now.free(*point, None);
+        let spots = border.spots(*band, band.from_m + reach_m, SPACING_M);
+        let point = |spot: &PlotSpot| spot.at.extend(base + height_m + spot.raised_m);
+        let states = judging.states(&spots.iter().map(point).collect::<Vec<_>>());
+        let of = |spot: &PlotSpot| -> Result<_, StudyError> {
+            let judged = states.now.free(point(spot), None);
             let now = states.now.lit(&judged, judging.days, &open)?;
-            place(judging, &demand, (1.0, vec![judged.point]), &PointLight { open: open.clone(), now, before: None })
+            let light = PointLight { open: open.clone(), now, before: None };
+            // it stands for the line as far as halfway to its neighbours
+            let around_m = DeemedBorder::spacing_m(border.distance_m(spot.at), SPACING_M) / 2.0;
+            let place = place(judging, &demand, (1.0, vec![judged.point]), &light)?;
+            Ok(KeptPlace { around_m, ..place })
         };
-        let places = in_steps(&points, steps, of)?;
+        let places = in_steps(&spots, steps, of)?;
         things.push(whole(named(number, *band), places));
         steps.done(1)?;
     }
