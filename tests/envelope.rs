@@ -133,7 +133,8 @@ fn a_place_keeps_the_sun_around_it() {
     let taken = |things: &[KeptThing]| {
         let outcome = found(things, DaysNeeded::Each);
         let building = building(&outcome.headroom, |_| 0.0);
-        let around = (0..12).map(|way| DVec2::from_angle(f64::from(way) * 0.5236).extend(0.0) * AROUND_M);
+        let around =
+            (0..12).map(|way| DVec2::from_angle(f64::from(way) * std::f64::consts::FRAC_PI_6).extend(0.0) * AROUND_M);
         let all: Vec<DVec3> = around.collect();
         let rays = rays(things, &outcome);
         let begins =
