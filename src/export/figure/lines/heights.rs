@@ -24,7 +24,10 @@ const FREE: Rgb = [206, 219, 196];
 const LINE: Rgb = [58, 66, 84];
 const LABEL: LetterStyle = LetterStyle { size: 27.0, weight: FontWeight::Bold, colour: LINE };
 const WIDTH: f64 = 2.6;
+const SIDE_WIDTH: f64 = 1.6;
 const APART: f64 = 240.0;
+/// Neighbouring cells whose heights differ by more steps than this have a steep side between them.
+const STEEP_STEPS: u64 = 2;
 /// The most lines; more could not be told apart.
 const MOST_LINES: f64 = 16.0;
 
@@ -50,7 +53,9 @@ pub fn heights(map: &EnvelopeMap) -> Result<LineDrawing, ExportError> {
     let is_plot = |cell: usize| map.height(cell).is_some();
     // a millimetre more than the height, so that what is as high as a line lies above it
     let value = |cell: usize| map.height(cell).map_or(0, |height| (f64::from(height).max(0.0) * 1000.0) as u64 + 1);
-    let open = |one: usize, other: usize| is_plot(one) && is_plot(other);
+    // a steep side, on which many lines would lie, is a line of its own
+    let is_steep = |one: usize, other: usize| value(one).abs_diff(value(other)) > STEEP_STEPS * step_mm;
+    let open = |one: usize, other: usize| is_plot(one) && is_plot(other) && !is_steep(one, other);
     let field = ScalarField { width: grid.width, height: grid.height, value: &value, open: &open };
     let cap_mm = (f64::from(map.cap_m) * 1000.0) as u64;
     let steps = (first..last.max(first + 1)).map(|step| step * step_mm).filter(|from_mm| *from_mm < cap_mm);
@@ -91,6 +96,11 @@ fn sheet(map: &EnvelopeMap, bands: &[HeightBand], step_mm: u64, fit: Fit) -> Blo
     group(&mut block, "buildings", |block| fill(block, &scale.areas(&buildings), BUILDING, 1.0));
     group(&mut block, "heights", |block| {
         bands.iter().for_each(|band| fill(block, &scale.areas(&band.contours), band.tone, 1.0));
+    });
+    group(&mut block, "sides", |block| {
+        for band in bands {
+            stroke(block, &scale.areas(&band.contours), SIDE_WIDTH, LINE, "");
+        }
     });
     group(&mut block, "outlines", |block| scale.lines(&buildings).draw(block, 2.0, INK, ""));
     let lines: Vec<(String, LineGroup)> =
