@@ -24,7 +24,7 @@ pub(super) struct EnvelopeArgs {
     #[arg(long, value_name = "ID", conflicts_with = "hours")]
     rule: Option<String>,
     /// What the rule leaves to the authority: hours=2h. May be repeated
-    #[arg(long, value_name = "KEY=VALUE", requires = "rule", allow_hyphen_values = true)]
+    #[arg(long, value_name = "KEY=VALUE", allow_hyphen_values = true)]
     set: Vec<String>,
     /// Instead of a rule: all windows, areas and façades of the site keep so many hours of sun on each day of its study:
     /// 2, 1.5, 1h30
@@ -102,6 +102,9 @@ pub(super) fn envelope(asked: &EnvelopeArgs) -> anyhow::Result<()> {
     if let (None, Some(option)) = (asked.hours, asked.days.given()) {
         let what = format!("{option} belongs to --hours: a rule has its own days and times; leave it out");
         return Err(WrongUse(what).into());
+    }
+    if asked.rule.is_none() && !asked.set.is_empty() {
+        return Err(WrongUse("--set chooses in a rule: add --rule ID, or leave it out".to_owned()).into());
     }
     let (demand, ReadSite { site, inputs }) = read(asked)?;
     let demand = match &demand {

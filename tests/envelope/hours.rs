@@ -88,6 +88,7 @@ fn mistakes_about_hours_are_told() {
     fails(path, "envelope . --quiet", 2, &["--rule ID", "--hours 2", "gnomon rules"]);
     fails(path, "envelope . --hours 2 --rule pl-wt-60", 2, &["--rule", "--hours"]);
     fails(path, "envelope . --rule pl-wt-60 --date 2026-03-21", 2, &["--date", "--hours"]);
+    fails(path, "envelope . --hours 2 --set clock=legal", 2, &["--set", "--rule ID"]);
     for hours in ["0", "-1", "25", "two", "nan", "1e99"] {
         fails(path, &format!("envelope . --hours {hours}"), 2, &["--hours", "at most 24"]);
     }
