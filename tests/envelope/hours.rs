@@ -92,7 +92,7 @@ fn mistakes_about_hours_are_told() {
     for hours in ["0", "-1", "25", "two", "nan", "1e99"] {
         fails(path, &format!("envelope . --hours {hours}"), 2, &["--hours", "at most 24"]);
     }
-    fails(path, "envelope . --hours 2 --from 10:00 --to 10:00", 1, &["--to"]);
+    fails(path, "envelope . --hours 2 --from 10:00 --to 10:00", 2, &["--to"]);
     fails(path, "envelope . --hours 2 --from 22:00 --to 23:00 --quiet", 1, &["no sun", "--from"]);
     // the plot is smaller than a cell
     fails(path, "envelope . --hours 2 --cell 100 --quiet", 2, &["--cell", "on the plot", "smaller"]);
