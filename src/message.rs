@@ -116,6 +116,8 @@ fields! {
     Bits => "bits",
     /// The memory budget.
     Memory => "memory",
+    /// The hours of sun that must stay.
+    Hours => "hours",
     /// The drawing of a point's sky.
     Sky => "a drawing of the sky",
     /// The path of the answer.

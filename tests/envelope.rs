@@ -1,5 +1,8 @@
 //! How high may be built: against the rays one by one, and with the envelope put back as a building.
 
+mod hours;
+mod together;
+
 use crate::shared::program::{PLACE, done, fails, names, site};
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use gnomon::export::envelope::{EnvelopeMap, EnvelopeSolid};
@@ -8,9 +11,9 @@ use gnomon::mesh::{Mesh, Part};
 use gnomon::rules::{Spell, total_secs};
 use gnomon::shadow::ray_cast::RayCaster;
 use gnomon::site::Ground;
-use gnomon::study::envelope::{DaysNeeded, EnvelopeOutcome, KeptPlace, KeptThing, SunNeeded, envelope};
+use gnomon::study::envelope::{CountedHeights, DaysNeeded, EnvelopeOutcome, KeptPlace, KeptThing, SunNeeded, envelope};
 use gnomon::sun::{Place, Sky, delta_t_secs};
-use gnomon::sunlight::{Headroom, KeptSeconds, roomiest};
+use gnomon::sunlight::{Headroom, KeptSeconds, RaySource, roomiest};
 use gnomon::view::Grid;
 use serde_json::Value;
 use std::ops::ControlFlow;
@@ -54,13 +57,16 @@ fn border() -> Vec<DVec2> {
     ]
 }
 
+/// Up to 60 m above the ground.
+const HEIGHTS: CountedHeights = CountedHeights { ground: 0.0, most: 60.0 };
+
 /// From here the sun stands over the plot from about 11:05 to 15:00 UTC, and for some six hours of the day's ten it does not.
 const WINDOW: DVec3 = dvec3(3.0, 20.0, 2.0);
 
 /// A window north of the plot that must keep so much of a day's sun between 7:00 and 17:00 UTC.
 fn place(points: Vec<DVec3>, needed_secs: i64, at_once: bool) -> KeptPlace {
     let lit = vec![Spell::new(secs("2026-03-21T07:00:00Z"), secs("2026-03-21T17:00:00Z"))];
-    KeptPlace { weight: 1.0, points, days: vec![SunNeeded { lit, secs: needed_secs, at_once }] }
+    KeptPlace { weight: 1.0, points, around_m: 0.0, days: vec![SunNeeded { lit, secs: needed_secs, at_once }] }
 }
 
 fn thing(places: Vec<KeptPlace>, needed: f64) -> KeptThing {
@@ -69,7 +75,7 @@ fn thing(places: Vec<KeptPlace>, needed: f64) -> KeptThing {
 
 fn found(things: &[KeptThing], days: DaysNeeded) -> EnvelopeOutcome {
     let place = london();
-    envelope(&sky(&place), plot(), (things, days), &mut |_| ControlFlow::Continue(())).unwrap()
+    envelope(&sky(&place), (plot(), HEIGHTS), (things, days), &mut |_| ControlFlow::Continue(())).unwrap()
 }
 
 /// The rays that an outcome keeps: from where, and in which direction.
@@ -117,6 +123,46 @@ fn each_cell_is_as_high_as_its_lowest_ray() {
     assert!(bounded > 20, "{bounded} cells under rays");
     let least = outcome.headroom.top.iter().copied().fold(f64::INFINITY, f64::min);
     assert!((outcome.kept[0].lowest() - least).abs() < 1e-9);
+}
+
+/// A place that stands for a part of an area keeps the sun of all of that part, in the same seconds.
+#[test]
+fn a_place_keeps_the_sun_around_it() {
+    const AROUND_M: f64 = 0.8;
+    let one = KeptPlace { around_m: AROUND_M, ..place(vec![WINDOW], 8 * 3600, false) };
+    let taken = |things: &[KeptThing]| {
+        let outcome = found(things, DaysNeeded::Each);
+        let building = building(&outcome.headroom, |_| 0.0);
+        let around =
+            (0..12).map(|way| DVec2::from_angle(f64::from(way) * std::f64::consts::FRAC_PI_6).extend(0.0) * AROUND_M);
+        let all: Vec<DVec3> = around.collect();
+        let rays = rays(things, &outcome);
+        let begins =
+            |(from, to_sun): &(DVec3, DVec3)| all.iter().map(|away| (from + away, *to_sun)).collect::<Vec<_>>();
+        rays.iter()
+            .step_by(10)
+            .flat_map(begins)
+            .filter(|(from, to_sun)| building.first_hit(*from, *to_sun).is_some())
+            .count()
+    };
+    assert_eq!(taken(&[thing(vec![one.clone()], 1.0)]), 0);
+    // as a point it does not
+    assert!(taken(&[thing(vec![KeptPlace { around_m: 0.0, ..one }], 1.0)]) > 0);
+}
+
+/// A comparison with rays that could not fail would prove nothing: where the heights are too low, half a metre more takes
+/// nothing.
+#[test]
+fn an_envelope_that_is_too_low_is_seen() {
+    let things = [thing(vec![place(vec![WINDOW], 8 * 3600, false)], 1.0)];
+    let outcome = found(&things, DaysNeeded::Each);
+    let rays = rays(&things, &outcome);
+    let takes = |higher: f64| {
+        let building = building(&outcome.headroom, |_| higher);
+        rays.iter().any(|(from, to_sun)| building.first_hit(*from, *to_sun).is_some())
+    };
+    assert_eq!([-1.0, 0.0, 0.5].map(takes), [false, false, true]);
+    assert!(!takes(-1.0 + 0.5), "a metre too low, half a metre more still takes nothing");
 }
 
 /// Heights above the ground, as a building: all of them, or one cell of them higher.
@@ -189,7 +235,8 @@ fn the_hours_that_leave_the_most_room_are_kept() {
     let (place_on_earth, plot) = (london(), plot());
     let sky = sky(&place_on_earth);
     let start = secs("2026-03-21T07:00:00Z");
-    let heights: Vec<f64> = (start..start + 10 * 3600).map(|secs| plot.lowest(WINDOW, to_sun(&sky, secs))).collect();
+    let heights: Vec<f64> =
+        (start..start + 10 * 3600).map(|secs| plot.lowest(RaySource::point(WINDOW), to_sun(&sky, secs))).collect();
     let [at_once, any] = [true, false].map(|at_once| {
         let things = [thing(vec![place(vec![WINDOW], 8 * 3600, at_once)], 1.0)];
         found(&things, DaysNeeded::Each).kept[0].places[0].1[0].clone()
@@ -237,12 +284,12 @@ fn places_and_days_are_chosen() {
 
 #[test]
 fn more_rays_than_can_be_asked_are_refused() {
-    let places = vec![place(vec![WINDOW; 12_000], 3600, false)];
+    let things = [thing(vec![place(vec![WINDOW; 60_000], 3600, false)], 1.0)];
     let place = london();
-    let error =
-        envelope(&sky(&place), plot(), (&[thing(places, 1.0)], DaysNeeded::Each), &mut |_| ControlFlow::Continue(()));
+    let asked = (things.as_slice(), DaysNeeded::Each);
+    let error = envelope(&sky(&place), (plot(), HEIGHTS), asked, &mut |_| ControlFlow::Continue(()));
     let said = error.unwrap_err().to_string();
-    assert!(said.contains("432000000") && said.contains("fewer days"), "{said}");
+    assert!(said.contains("2160000000") && said.contains("fewer days"), "{said}");
 }
 
 #[test]

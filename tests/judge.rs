@@ -4,6 +4,7 @@ mod areas;
 mod bands;
 mod dwellings;
 mod geometry;
+mod kept;
 mod lacking;
 mod openings;
 mod parts;

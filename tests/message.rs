@@ -55,7 +55,9 @@ fn pieces_are_said_in_the_words_of_a_face() {
 #[test]
 fn fields_are_options_of_the_command() {
     let folder = tempfile::tempdir().unwrap();
-    let commands = ["profile", "compare", "shadow", "animate", "sun", "check", "volumes", "verify", "probe", "convert"];
+    let commands = [
+        "profile", "compare", "shadow", "animate", "sun", "check", "volumes", "verify", "probe", "convert", "envelope",
+    ];
     let help: String = commands.map(|command| done(folder.path(), &format!("{command} --help"))).concat();
     let taken: Vec<&str> = help.split(|c: char| !c.is_ascii_alphanumeric() && c != '-').collect();
     for field in Field::ALL {

@@ -5,7 +5,7 @@ use super::commands::lines;
 use super::options::Options;
 use super::output::say;
 use super::progress::Progress;
-use super::ruled_site::{RuledSite, RuledSiteArgs};
+use super::ruled_site::{ChosenRule, ReadSite, RuledSiteArgs};
 use super::wrong_use::WrongUse;
 use crate::deliver::Sink;
 use crate::deliver::judgement::{JudgeAnswer, JudgeRequest, judge as deliver};
@@ -41,7 +41,7 @@ pub(super) fn judge(asked: &JudgeArgs) -> anyhow::Result<ExitCode> {
     {
         return Err(WrongUse(format!("--csv writes CSV; name a .csv file instead of {}", path.display())).into());
     }
-    let RuledSite { source, rule, site, inputs } = asked.ruled.read()?;
+    let (ChosenRule { source, rule }, ReadSite { site, inputs }) = asked.ruled.read()?;
     let request = JudgeRequest { source: &source, rule: &rule, table: asked.csv.as_ref() };
     let mut progress = Progress::of("receivers", asked.common.quiet);
     let sink = Sink::Paths { inputs: &inputs };

@@ -62,6 +62,7 @@ impl Words for Options {
             Field::Masks => "--masks",
             Field::Bits => "--bits",
             Field::Memory => "--memory",
+            Field::Hours => "--hours",
             Field::Sky => "--sky",
             Field::Out => "--out",
             Field::Csv => "--csv",

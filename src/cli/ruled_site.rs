@@ -1,20 +1,27 @@
-//! A site and the rule of an authority that is applied to it, as `gnomon judge` and `gnomon envelope` take them.
+//! A site of which something is judged, and the rule of an authority, as `gnomon judge` and `gnomon envelope` take them.
 
 use super::arguments::SiteArgs;
 use super::model::ModelArgs;
 use super::wrong_use::WrongUse;
 use crate::rules::{ResolvedRule, RuleError, RuleSource, rule_for_site};
-use crate::site::{JudgedSite, load_judged};
+use crate::site::{JudgedSite, Overrides, SiteError, load_judged};
 use crate::study::settle;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
+/// A site of which something is judged.
 #[derive(Debug, Args)]
-pub(super) struct RuledSiteArgs {
+pub(super) struct JudgedSiteArgs {
     #[command(flatten)]
     site: SiteArgs,
     #[command(flatten)]
     model: ModelArgs,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct RuledSiteArgs {
+    #[command(flatten)]
+    judged: JudgedSiteArgs,
     /// The rule: the name of a file beside the site, ID.toml, or a built-in one as `gnomon rules` lists them
     #[arg(long, value_name = "ID")]
     rule: String,
@@ -23,11 +30,14 @@ pub(super) struct RuledSiteArgs {
     set: Vec<String>,
 }
 
-/// What was read of it.
-pub(super) struct RuledSite {
+/// A rule with its options chosen.
+pub(super) struct ChosenRule {
     pub(super) source: RuleSource,
-    /// The rule with its options chosen.
     pub(super) rule: ResolvedRule,
+}
+
+/// What was read of a site.
+pub(super) struct ReadSite {
     pub(super) site: JudgedSite,
     /// The files that were read, over which nothing may be written.
     pub(super) inputs: Vec<PathBuf>,
@@ -35,15 +45,34 @@ pub(super) struct RuledSite {
 
 impl RuledSiteArgs {
     /// Reads the rule first, as that is quick, and then the site with its models.
-    pub(super) fn read(&self) -> anyhow::Result<RuledSite> {
-        let folder = folder_of(self.site.path());
-        let written = rule_for_site(&self.rule, folder).map_err(wrong_use)?;
-        let rule = written.resolve(&chosen(&self.set)?).map_err(wrong_use)?;
-        let overrides = self.model.onto(self.site.overrides()?);
-        let site = settle(load_judged(self.site.path(), &overrides)?)?;
+    pub(super) fn read(&self) -> anyhow::Result<(ChosenRule, ReadSite)> {
+        let rule = self.judged.rule(&self.rule, &self.set)?;
+        Ok((rule, self.judged.read(Some(&self.rule), &self.judged.overrides()?)?))
+    }
+}
+
+impl JudgedSiteArgs {
+    /// A rule for this site, from its folder or built in.
+    pub(super) fn rule(&self, name: &str, set: &[String]) -> anyhow::Result<ChosenRule> {
+        let written = rule_for_site(name, folder_of(self.site.path())).map_err(wrong_use)?;
+        let rule = written.resolve(&chosen(set)?).map_err(wrong_use)?;
+        Ok(ChosenRule { source: written.source, rule })
+    }
+
+    pub(super) fn path(&self) -> &Path {
+        self.site.path()
+    }
+
+    pub(super) fn overrides(&self) -> Result<Overrides, SiteError> {
+        Ok(self.model.onto(self.site.overrides()?))
+    }
+
+    /// Reads the site with its models.
+    pub(super) fn read(&self, rule: Option<&str>, asked: &Overrides) -> anyhow::Result<ReadSite> {
+        let site = settle(load_judged(self.site.path(), asked)?)?;
         let mut inputs = self.site.inputs()?;
-        inputs.extend(rule_file(&self.rule, folder));
-        Ok(RuledSite { source: written.source, rule, site, inputs })
+        inputs.extend(rule.and_then(|rule| rule_file(rule, folder_of(self.site.path()))));
+        Ok(ReadSite { site, inputs })
     }
 }
 

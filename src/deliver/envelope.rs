@@ -1,4 +1,5 @@
-//! How high may be built on a plot so that what a rule protects keeps its sun: a raster, a drawing, a solid.
+//! How high may be built on a plot so that what a rule protects, or everything, keeps its sun: a raster, a drawing, a
+//! solid.
 
 use super::parts::{note, note_letters};
 use super::sink::NamedFile;
@@ -6,10 +7,10 @@ use super::{DeliverError, Sink, WrittenFiles};
 use crate::export::envelope::{self as encode, EnvelopeMap, EnvelopeSolid, EnvelopeTold, KeptReceiver, KeptSpot};
 use crate::export::{figure, raster};
 use crate::message::{Field, Message, message};
-use crate::rules::{Grouping, ResolvedRule, RuleDay, RuleError, RuleNeed, RuleReceiver, RuleSource};
+use crate::rules::{Grouping, ResolvedRule, RuleDay, RuleReceiver, SunDemand, duration_text};
 use crate::site::{GroundKind, JudgedPlot, JudgedSite};
-use crate::study::envelope::{EnvelopeOutcome, KeptThing, envelope as find};
-use crate::study::judge::kept_by;
+use crate::study::envelope::{CountedHeights, EnvelopeOutcome, KeptThing, envelope as find};
+use crate::study::judge::{kept_by, plot_to_build_on};
 use crate::study::plot_cells::{buildings, cells_within, plot_grid};
 use crate::study::{self, Event, OnEvent, StudyError, tell};
 use crate::sun::{Air, Sky, delta_t_secs};
@@ -22,10 +23,8 @@ use std::path::PathBuf;
 /// The request, besides the site.
 #[derive(Clone, Copy, Debug)]
 pub struct EnvelopeRequest<'a> {
-    /// The rule's source.
-    pub source: &'a RuleSource,
-    /// The rule with all of its options chosen.
-    pub rule: &'a ResolvedRule,
+    /// What must keep its sun.
+    pub demand: SunDemand<'a>,
     /// The side of a cell, metres.
     pub cell_m: Option<f64>,
     /// The greatest height where no sun limits it, metres.
@@ -63,24 +62,29 @@ pub fn envelope(
 ) -> Result<EnvelopeAnswer, DeliverError> {
     let open = sink.open(&FILES.map(PathBuf::from), None)?;
     note(open.note(), on_event)?;
-    let (plot, grid) = plot(site, &asked)?;
-    note_letters([site.place.name.as_str(), asked.source.name.as_str()], on_event)?;
+    let (plot, grid, inside) = plot(site, &asked)?;
+    let name = name(&asked.demand);
+    note_letters([site.place.name.as_str(), name.as_str()], on_event)?;
     let mut notes = site.notes.clone();
     let mut heard = |event: Event<'_>| {
         study::gather(&event, &site.notes, &mut notes);
         on_event(event)
     };
     let base = without_the_new(site);
-    let kept = kept_by(&base, asked.rule, asked.highest_m, &mut heard)?;
-    note_choices(&base, site, asked.rule, &mut heard)?;
+    let kept = kept_by(&base, asked.demand, asked.highest_m, &mut heard)?;
+    note_states(&base, site, &mut heard)?;
+    note_choices(&asked.demand, &mut heard)?;
     let year = NaiveDate::from_ymd_opt(site.year, 7, 1).unwrap_or_default().and_time(NaiveTime::MIN).and_utc();
     let air = site.refraction.then(|| Air::standard(site.place.elevation_m));
     let sky = Sky { place: &site.place, delta_t_secs: delta_t_secs(year).map_err(StudyError::from)?, air };
-    let room = Headroom::new(grid, cells_within(&plot.border, &grid));
-    let outcome = find(&sky, room, (&kept.things, kept.needed), &mut heard)?;
-    let told = told(&kept.things, &outcome, base.now.ground.level);
+    let room = Headroom::new(grid, inside);
+    let ground = base.now.ground.level;
+    let counted = CountedHeights { ground, most: ground + asked.highest_m };
+    let outcome = find(&sky, (room, counted), (&kept.things, kept.needed), &mut heard)?;
+    note_outcome(&outcome, &mut heard)?;
+    let told = told(&kept.things, &outcome, ground);
     note_lacking(&told, &mut heard)?;
-    let heights = heights(&outcome.headroom, base.now.ground.level, asked.highest_m);
+    let heights = heights(&outcome.headroom, ground, asked.highest_m);
     let standing = buildings(&base.now, &grid);
     let points = points(&told);
     let map = EnvelopeMap {
@@ -92,7 +96,7 @@ pub fn envelope(
         border: &plot.border,
         buildings: &standing,
         points: &points,
-        kept: &format!("{}, {}", asked.source.name, asked.source.edition),
+        kept: &name,
         days: &dates(&kept.days),
         refraction: site.refraction,
     };
@@ -100,24 +104,29 @@ pub fn envelope(
     let mut names: Vec<PathBuf> = files.iter().map(|(name, _)| name.clone()).collect();
     names.push(FILES[5].into());
     let paths: Vec<PathBuf> = names.iter().map(|name| open.path(name).unwrap_or_else(|| name.clone())).collect();
-    let (source, rule, days) = (asked.source, asked.rule, kept.days.as_slice());
-    let said = EnvelopeTold { map: &map, source, rule, days, kept: &told, files: &paths };
+    let (demand, days, most_m3) = (asked.demand, kept.days.as_slice(), outcome.most_m3);
+    let said = EnvelopeTold { map: &map, demand, days, kept: &told, most_m3, files: &paths };
     let report = encode::json(&said, (&notes, site.words))?;
     files.push((FILES[5].into(), report.clone().into_bytes()));
     Ok(EnvelopeAnswer { table: encode::table(&said), report, written: open.write(files)? })
 }
 
-/// The plot and its cells.
-fn plot<'s>(site: &'s JudgedSite, asked: &EnvelopeRequest<'_>) -> Result<(&'s JudgedPlot, Grid), DeliverError> {
-    let Some(plot) = &site.plot else {
-        let needs = vec![RuleNeed::of_key("the plot that is built on", "[plot]", "")];
-        return Err(StudyError::from(RuleError::Needs { rule: asked.rule.id.clone(), needs }).into());
-    };
+/// The plot, the cells around it, and which of them belong to it.
+fn plot<'s>(
+    site: &'s JudgedSite,
+    asked: &EnvelopeRequest<'_>,
+) -> Result<(&'s JudgedPlot, Grid, Vec<bool>), DeliverError> {
+    let plot = plot_to_build_on(site, asked.demand)?;
     let Some(grid) = plot_grid(plot, asked.cell_m) else {
         let message = message!["the plot has too many cells of that size"; "take larger ones"];
         return Err(StudyError::Conflict { field: Field::Cell, message }.into());
     };
-    Ok((plot, grid))
+    let inside = cells_within(&plot.border, &grid);
+    if !inside.contains(&true) {
+        let message = message![format!("no cell of {} m has its middle on the plot", grid.cell); "take smaller ones"];
+        return Err(StudyError::Conflict { field: Field::Cell, message }.into());
+    }
+    Ok((plot, grid, inside))
 }
 
 /// What stands without the new building: the state before, or else the only state. It is compared with itself.
@@ -126,13 +135,16 @@ fn without_the_new(site: &JudgedSite) -> JudgedSite {
     JudgedSite { before: Some(now.clone()), now, ..site.clone() }
 }
 
-/// Notes on what was chosen where the rule leaves a choice, and on what the heights do not include.
-fn note_choices(
-    base: &JudgedSite,
-    site: &JudgedSite,
-    rule: &ResolvedRule,
-    on_event: &mut OnEvent<'_>,
-) -> Result<(), StudyError> {
+/// One line that says what is kept.
+fn name(demand: &SunDemand<'_>) -> String {
+    match demand {
+        SunDemand::Rule(source, _) => format!("{}, {}", source.name, source.edition),
+        SunDemand::Hours(secs, _) => format!("{} of sun each day", duration_text(*secs)),
+    }
+}
+
+/// Notes on what stands, and on what the heights do not include.
+fn note_states(base: &JudgedSite, site: &JudgedSite, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     let mut tell_all = |said: &str| tell(on_event, Event::Note(said.to_owned().into()));
     if site.before.is_none() {
         tell_all("the site has no state before, so everything counts as standing, also what is on the plot")?;
@@ -140,6 +152,21 @@ fn note_choices(
     if base.now.ground.kind == GroundKind::Terrain {
         tell_all("heights are measured from the plane of the ground, not from the terrain")?;
     }
+    Ok(())
+}
+
+/// Notes on what was chosen where the demand leaves a choice.
+fn note_choices(demand: &SunDemand<'_>, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+    let mut tell_all = |said: &str| tell(on_event, Event::Note(said.to_owned().into()));
+    let rule: &ResolvedRule = match demand {
+        SunDemand::Rule(_, rule) => rule,
+        SunDemand::Hours(..) => {
+            return tell_all(
+                "each window (the middle of it, in the wall's outer plane), each point of a façade and each place on an area \
+                 keeps so much sun by itself, that whose rays pass highest over the plot",
+            );
+        }
+    };
     tell_all("each place keeps as much sun as the rule asks, that whose rays pass highest over the plot")?;
     if let RuleReceiver::Window { group, all_of, .. } = &rule.receiver {
         let is_shared = group.is_some_and(|group| matches!(group, Grouping::Room | Grouping::Dwelling));
@@ -155,13 +182,26 @@ fn note_choices(
     Ok(())
 }
 
+/// Notes on hours that places chose together, and on a plot over which no sun must stay.
+fn note_outcome(outcome: &EnvelopeOutcome, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+    let mut tell_all = |said: &str| tell(on_event, Event::Note(said.to_owned().into()));
+    if outcome.is_together {
+        tell_all(
+            "some places keep other hours than those whose rays pass highest, as all together then leave more volume",
+        )?;
+    }
+    if outcome.kept.iter().all(|kept| kept.lowest().is_infinite()) {
+        tell_all("no sun that must stay passes over the plot, so nothing that is protected bounds the heights")?;
+    }
+    Ok(())
+}
 fn note_lacking(told: &[KeptReceiver], on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
     let lacking: Vec<String> = told.iter().filter(|of| of.lacks).map(|of| format!("{:?}", of.name)).collect();
     if lacking.is_empty() {
         return Ok(());
     }
     let names = crate::message::few(lacking);
-    let said = format!("already less sun than the rule asks, so all of it is kept: {names}");
+    let said = format!("already less sun than is asked, so all of it is kept: {names}");
     tell(on_event, Event::Note(said.into()))
 }
 

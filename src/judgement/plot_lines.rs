@@ -120,6 +120,11 @@ impl DeemedBorder {
         if lacking > 0.0 && !self.is_inside(at) { at + outward * lacking } else { at }
     }
 
+    /// The greatest distance between places on a line at a distance from the border.
+    pub fn spacing_m(distance_m: f64, least_m: f64) -> f64 {
+        least_m.max(distance_m * 0.05)
+    }
+
     /// The places of a band, on its inner line and on lines further out, up to this distance. Each is at most
     /// `spacing_m` from the next one along a line near the border, and farther out at most a part of the distance.
     pub fn spots(&self, band: Band, reach_m: f64, spacing_m: f64) -> Vec<PlotSpot> {
@@ -127,7 +132,7 @@ impl DeemedBorder {
         let far = band.to_m.min(band.from_m.max(reach_m));
         let mut distance = band.from_m;
         loop {
-            spots.extend(self.line(distance, spacing_m.max(distance * 0.05)));
+            spots.extend(self.line(distance, DeemedBorder::spacing_m(distance, spacing_m)));
             if distance >= far {
                 return spots;
             }

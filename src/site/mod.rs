@@ -67,6 +67,7 @@ pub use inputs::inputs;
 #[doc(hidden)]
 pub use judged::{
     AreaSurface, JudgedArea, JudgedFacade, JudgedPlot, JudgedSite, JudgedState, JudgedWindow, PlotSide, load_judged,
+    study_days,
 };
 #[doc(hidden)]
 pub use key_table::{SITE_KEYS, SITE_TABLES, SiteKey, ValueType};

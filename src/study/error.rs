@@ -196,7 +196,7 @@ impl Worded for StudyError {
             ],
             StudyError::NoDevice(why) => no_device(why),
             StudyError::NoDay => message![
-                "there is no sun at any of the study's instants, so there is nothing to compare";
+                "there is no sun at any of the study's instants, so there is nothing to compare or to keep";
                 "choose a window by day", Piece::Where(Field::From, pieces![" with ", Field::From, " and ", Field::To])
             ],
             StudyError::Sun(error) => error.message(),
@@ -234,6 +234,12 @@ impl StudyError {
             Some(at) => StudyError::FileMisfit { misfit, at: at.clone() },
             None => misfit.into(),
         }
+    }
+
+    /// What keeping given hours needs and a site lacks.
+    pub(crate) fn hours_need(needs: &[RuleNeed]) -> StudyError {
+        let what = needs.iter().map(|need| need.what.as_str()).collect::<Vec<_>>().join("; ");
+        StudyError::Rule(Message { what: pieces![Field::Hours, format!(" needs {what}")], hint: to_add(needs) })
     }
 
     /// Whether the command line was wrong (exit status 2).

@@ -4,6 +4,7 @@ mod face_tree;
 #[cfg(feature = "test-hooks")]
 mod halving;
 mod headroom;
+mod kept_seconds;
 mod patches;
 mod probes;
 mod search;
@@ -13,13 +14,16 @@ mod sky_cells;
 mod sky_lines;
 mod sky_raster;
 mod sun_path;
+mod sun_slopes;
 mod wall_front;
 
-pub use headroom::{Headroom, KeptSeconds, RayHeight, roomiest};
+pub use headroom::{Headroom, PlotSight, RaySource};
+pub use kept_seconds::{KeptSeconds, RayHeight, roomiest, spells};
 pub use patches::{Exposure, PatchHours};
 pub use probes::{Interval, IntervalBound, JudgedPoint, ProbeIntervals, SunDay, Sunlight, judged, longest, secs};
 pub use search::{ProbeSearch, SearchedDays};
 pub use sky_lines::{DayWay, HourLine, ProbeWay, SkyLines};
 pub use sky_raster::{SkyCaster, SkyCell, SkyRaster};
 pub use sun_path::SunPath;
+pub use sun_slopes::SunSlopes;
 pub use wall_front::WallFront;

@@ -1,6 +1,6 @@
 //! `[[window]]`: panes of components, and four corners.
 
-use super::{fails, judged, notes};
+use super::{Drawing, fails, judged, notes};
 use glam::{DVec3, dvec3};
 use gnomon::site::JudgedWindow;
 
@@ -53,6 +53,43 @@ fn panes_of_a_component_are_windows() {
     let named = judged("[[window]]\nname = \"south\"\ncomponent = [\"glass\", \"!house\"]\nreveal = 0.1");
     assert_eq!([&named.windows[0].name, &named.windows[1].name], ["south 1", "south 2"]);
     assert_eq!((named.windows[0].reveal_m, named.windows[0].reveal_is_said), (0.1, true));
+}
+
+/// Double glazing is one window, judged at its outermost faces; panes beside each other, and panes of two walls, are not.
+#[test]
+fn panes_behind_each_other_are_one_window() {
+    let pane = |drawing: Drawing, [x, y]: [f64; 2]| drawing.block([x, y, 1.0], [x + 1.2, y + 0.006, 2.4]);
+    // three panes of one window, its neighbour's single one, and one in the wall across a corridor
+    let panes = [[0.0, 0.0], [0.0, 0.016], [0.01, 0.15], [1.25, 0.0], [0.0, 1.2]];
+    let folder =
+        super::folder("[[window]]\ncomponent = \"glass\"\n[[window]]\nname = \"sheets\"\ncomponent = \"sheets\"");
+    let model = panes.into_iter().fold(Drawing::default().object("glass"), pane);
+    // two sheets, one of which is turned the other way, and one at a right angle to them
+    let sheet = |y: f64| [[5.0, y, 1.0], [6.0, y, 1.0], [6.0, y, 2.0], [5.0, y, 2.0]];
+    let turned = {
+        let [a, b, c, d] = sheet(0.1);
+        [d, c, b, a]
+    };
+    let across = [[5.05, 0.0, 1.0], [5.05, 1.0, 1.0], [5.05, 1.0, 2.0], [5.05, 0.0, 2.0]];
+    let model = model.object("sheets").sheet(sheet(0.0)).sheet(turned).sheet(across);
+    super::write(&folder, "town.obj", &model.text);
+    let site = super::open(&folder.path().join("site.toml"));
+    let names: Vec<&str> = site.windows.iter().map(|window| window.name.as_str()).collect();
+    assert_eq!(names, ["glass 1", "glass 2", "glass 3", "sheets 1", "sheets 2"]);
+    // of the three, the front of the one and the back of the other
+    let mut faces = [site.windows[0].corners, site.windows[0].other_side.unwrap()].map(|corners| corners[0].y);
+    faces.sort_by(f64::total_cmp);
+    assert!(faces[0].abs() < 1e-5 && (faces[1] - 0.156).abs() < 1e-5, "{faces:?}");
+    let seen = |window: &JudgedWindow| {
+        [window.corners, window.other_side.unwrap()].map(|corners| {
+            let [a, b, _, d] = corners;
+            (b - a).cross(d - a).normalize()
+        })
+    };
+    assert!(site.windows.iter().map(seen).all(|[front, back]| front.distance(-back) < 1e-6));
+    let said = notes(&site);
+    assert!(said.contains("2 pieces of \"glass\" lie at most 20 cm behind others"), "{said}");
+    assert!(said.contains("1 piece of \"sheets\" lies at most 20 cm behind others"), "{said}");
 }
 
 #[test]

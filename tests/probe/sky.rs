@@ -378,3 +378,27 @@ fn a_card_shows_the_disc() {
     assert!(walls.len() > 5_000 && walls.iter().all(|at| at.y < middle), "{}", walls.len());
     assert!(ways.len() > 1_000 && ways.iter().all(|at| at.y > middle - 10.0), "{}", ways.len());
 }
+
+/// The lines of a year use one ΔT. At the year's ends the sun stands where its own ΔT has it to 0.03 s of its way, and a
+/// difference of an hour would be seen.
+#[test]
+fn one_delta_t_a_year_is_enough() {
+    use gnomon::sun::{Sky, delta_t_secs};
+    let paris = paris();
+    for year in [1600, 1750, 1900, 1987, 2026, 2100, 2500, 2999] {
+        let at = |text: String| -> chrono::DateTime<chrono::Utc> { text.parse().unwrap() };
+        let of_year = delta_t_secs(at(format!("{year}-07-01T00:00:00Z"))).unwrap();
+        for day in ["01-01T12:00:00Z", "12-31T12:00:00Z"] {
+            let time = at(format!("{year}-{day}"));
+            let seen = |delta_t_secs: f64| {
+                let sky = Sky { place: &paris, delta_t_secs, air: None };
+                sky.at(time.with_timezone(&paris.time_zone)).unwrap().to_sun
+            };
+            let own = seen(delta_t_secs(time).unwrap());
+            // radians a second
+            let speed = 2.0 * PI / 86_400.0;
+            assert!(own.distance(seen(of_year)) < 0.03 * speed, "{year}: {} s", own.distance(seen(of_year)) / speed);
+            assert!(own.distance(seen(of_year + 3600.0)) > speed);
+        }
+    }
+}

@@ -6,7 +6,7 @@ use crate::export::names::plain;
 use crate::export::report::{self, GroundReport, PlaceReport, ground_report, place_report, stamp, tz_version};
 use crate::export::{ExportError, probe};
 use crate::message::{Message, Words};
-use crate::rules::{ResolvedRule, RuleDay, RuleSource, Spell, total_secs};
+use crate::rules::{RuleDay, Spell, SunDemand, duration_text, total_secs};
 use crate::sun::{Place, Zone};
 use chrono::{DateTime, TimeZone};
 use glam::DVec3;
@@ -22,7 +22,7 @@ pub struct KeptReceiver {
     /// The height of its lowest ray over the plot, metres above the ground's level; `None` if no ray passes over the
     /// plot.
     pub lowest_m: Option<f64>,
-    /// Whether it has less sun than the rule asks, so that all of its sun is kept.
+    /// Whether it has less sun than is asked, so that all of its sun is kept.
     pub lacks: bool,
     /// Its places whose sun is kept.
     pub places: Vec<KeptSpot>,
@@ -42,14 +42,14 @@ pub struct KeptSpot {
 pub struct EnvelopeTold<'a> {
     /// The heights.
     pub map: &'a EnvelopeMap<'a>,
-    /// The rule's source.
-    pub source: &'a RuleSource,
-    /// The rule.
-    pub rule: &'a ResolvedRule,
-    /// The rule's days.
+    /// What must keep its sun.
+    pub demand: SunDemand<'a>,
+    /// The days on which it must.
     pub days: &'a [RuleDay],
     /// What is kept.
     pub kept: &'a [KeptReceiver],
+    /// What no choice of hours exceeds, cubic metres; `None` if there is no choice.
+    pub most_m3: Option<f64>,
     /// The files that were written.
     pub files: &'a [PathBuf],
 }
@@ -62,10 +62,11 @@ struct EnvelopeReport<'a> {
     #[serde(flatten)]
     ground: GroundReport,
     refraction: bool,
-    rule: RuleReport<'a>,
+    rule: Option<RuleReport<'a>>,
+    hours_secs: Option<i64>,
     check_with_your_authority: &'static str,
     #[serde(flatten)]
-    settled: SettledReport<'a>,
+    settled: Option<SettledReport<'a>>,
     region: [f64; 4],
     cell: f64,
     width: u32,
@@ -74,6 +75,7 @@ struct EnvelopeReport<'a> {
     least_m: Option<f32>,
     greatest_m: Option<f32>,
     volume_m3: f64,
+    volume_at_most_m3: Option<f64>,
     kept: Vec<KeptReport<'a>>,
     files: Vec<String>,
     notes: Vec<String>,
@@ -101,14 +103,19 @@ struct KeptDayReport {
 }
 
 /// The JSON: the rule as `judge` has it, the raster of the heights (`region`, `cell`, `width`, `height`), `highest_m`, which
-/// nothing exceeds, the `least_m` and `greatest_m` height and the `volume_m3` below them. For everything that is `kept`, it
+/// nothing exceeds, the `least_m` and `greatest_m` height and the `volume_m3` below them. Without a rule, `rule` is null and
+/// `hours_secs` says how much sun stays. If there is a choice of hours, none leaves more than `volume_at_most_m3`. For everything that is `kept`, it
 /// has the height of the lowest ray above the ground (`lowest_m`, null if none passes over the plot), whether it `lacks`
 /// sun, and when the sun stays at each of its places.
 ///
 /// # Errors
 /// [`ExportError::Encode`] if the encoder fails.
 pub fn json(told: &EnvelopeTold, (notes, words): (&[Message], &dyn Words)) -> Result<String, ExportError> {
-    let EnvelopeTold { map, source, rule, .. } = *told;
+    let EnvelopeTold { map, demand, .. } = *told;
+    let (rule, settled, hours_secs) = match demand {
+        SunDemand::Rule(source, rule) => (Some(rule_report(source)), Some(settled_report(rule)), None),
+        SunDemand::Hours(secs, _) => (None, None, Some(secs)),
+    };
     let day = |(number, spells): &(usize, Vec<Spell>)| KeptDayReport {
         date: told.days[*number].date.to_string(),
         seconds: total_secs(spells),
@@ -125,9 +132,10 @@ pub fn json(told: &EnvelopeTold, (notes, words): (&[Message], &dyn Words)) -> Re
         tz_version: tz_version(map.place),
         ground: ground_report(map.ground),
         refraction: map.refraction,
-        rule: rule_report(source),
+        rule,
+        hours_secs,
         check_with_your_authority: CHECK,
-        settled: settled_report(rule),
+        settled,
         region: map.grid.region(),
         cell: map.grid.cell,
         width: map.grid.width,
@@ -136,6 +144,7 @@ pub fn json(told: &EnvelopeTold, (notes, words): (&[Message], &dyn Words)) -> Re
         least_m: range.map(|[low, _]| low),
         greatest_m: range.map(|[_, high]| high),
         volume_m3: map.volume_m3(),
+        volume_at_most_m3: told.most_m3,
         kept: told
             .kept
             .iter()
@@ -156,7 +165,7 @@ const MOST_LINES: usize = 40;
 
 /// The files, the heights, what is kept and when, and what that rests on. Ends with a line break.
 pub fn table(told: &EnvelopeTold) -> String {
-    let EnvelopeTold { map, source, .. } = *told;
+    let map = told.map;
     let mut text: String = told.files.iter().map(|file| format!("{}\n", file.display())).collect();
     // Writing to a String cannot fail.
     let _ = match map.range() {
@@ -166,8 +175,11 @@ pub fn table(told: &EnvelopeTold) -> String {
             map.volume_m3(),
             map.cap_m
         ),
-        None => writeln!(text, "\nthe plot has no cell: take smaller ones"),
+        None => writeln!(text, "\nthe plot has no cell"),
     };
+    if let Some(most_m3) = told.most_m3 {
+        let _ = writeln!(text, "no choice of hours leaves more than {most_m3:.0} m³");
+    }
     let width = told.kept.iter().map(|of| plain(&of.name).chars().count()).fold(8, usize::max).min(40);
     let _ = writeln!(text, "\n  {:<width$}  {:>10}  sun that stays", "keeps", "lowest ray");
     for of in told.kept.iter().take(MOST_LINES) {
@@ -177,21 +189,7 @@ pub fn table(told: &EnvelopeTold) -> String {
     if told.kept.len() > MOST_LINES {
         let _ = writeln!(text, "  and {} more; the JSON has all", told.kept.len() - MOST_LINES);
     }
-    let _ = writeln!(
-        text,
-        "\nrule: {}, {} ({}), known as {}: {}\n{CHECK}",
-        source.name,
-        source.region,
-        source.edition,
-        source.confidence,
-        source.confidence.meaning()
-    );
-    for assumed in &source.assumes {
-        let _ = writeln!(text, "assumes: {assumed}");
-    }
-    for (name, value) in &told.rule.chosen {
-        let _ = writeln!(text, "chosen: {name} = {}", value.text());
-    }
+    text += &demanded(told.demand);
     let refraction = if map.refraction { "with refraction" } else { "without refraction" };
     let _ = writeln!(
         text,
@@ -203,9 +201,24 @@ pub fn table(told: &EnvelopeTold) -> String {
     text
 }
 
+/// What must keep its sun, and what that rests on.
+fn demanded(demand: SunDemand<'_>) -> String {
+    let (source, rule) = match demand {
+        SunDemand::Rule(source, rule) => (source, rule),
+        SunDemand::Hours(secs, _) => {
+            return format!("\nkeeps {} of sun on each day, as given, by no rule\n{CHECK}\n", duration_text(secs));
+        }
+    };
+    let known = format!("known as {}: {}", source.confidence, source.confidence.meaning());
+    let head = format!("\nrule: {}, {} ({}), {known}\n{CHECK}\n", source.name, source.region, source.edition);
+    let assumed = source.assumes.iter().map(|assumed| format!("assumes: {assumed}\n"));
+    let chosen = rule.chosen.iter().map(|(name, value)| format!("chosen: {name} = {}\n", value.text()));
+    std::iter::once(head).chain(assumed).chain(chosen).collect()
+}
+
 /// When a thing's sun stays: the spells if it is a single place on a single day, else how much stays.
 fn stays(told: &EnvelopeTold, of: &KeptReceiver) -> String {
-    let lacks = if of.lacks { "; less than the rule asks: all of it is kept" } else { "" };
+    let lacks = if of.lacks { "; less than is asked: all of it is kept" } else { "" };
     let clock = |secs: i64| time(told.map.place, secs).format("%H:%M:%S").to_string();
     match of.places.as_slice() {
         [KeptSpot { days, .. }] => match days.as_slice() {

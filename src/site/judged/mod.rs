@@ -6,8 +6,10 @@
 mod areas;
 mod asked_table;
 mod before;
+mod days;
 mod facades;
 mod glass;
+mod glazing;
 mod load;
 mod outline_file;
 mod plot;
@@ -16,5 +18,6 @@ mod rings;
 mod rooms;
 mod windows;
 
+pub use days::study_days;
 pub use load::load_judged;
 pub use request::{AreaSurface, JudgedArea, JudgedFacade, JudgedPlot, JudgedSite, JudgedState, JudgedWindow, PlotSide};

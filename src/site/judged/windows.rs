@@ -1,7 +1,8 @@
 //! `[[window]]` → windows.
 
 use super::asked_table::{AskedTable, TakenNames};
-use super::glass::{outward, pane, rectangle};
+use super::glass::{Pane, outward, pane, rectangle};
+use super::glazing::joined;
 use super::request::JudgedWindow;
 use crate::mesh::Mesh;
 use crate::message::{Message, few, message};
@@ -83,7 +84,7 @@ fn plain(table: &AskedTable, window: &WindowTable) -> Result<JudgedWindow, SiteE
     })
 }
 
-/// Adds the flat pieces of components, each a window.
+/// Adds the flat pieces of components, each a window; those close behind each other are one.
 fn add_panes(
     asked: &mut AskedWindows,
     table: &AskedTable,
@@ -91,21 +92,20 @@ fn add_panes(
     (names, mesh): (&WrittenNames, &Mesh),
 ) -> Result<(), SiteError> {
     let chosen = table.chosen("component", names, mesh)?;
-    let (mut found, mut bulky, mut odd) = (0_usize, Vec::new(), Vec::new());
+    let (mut found, mut bulky, mut odd, mut doubled) = (0_usize, Vec::new(), Vec::new(), Vec::new());
     for (index, component) in mesh.components.iter().enumerate().filter(|(index, _)| chosen[*index]) {
         if std::mem::replace(&mut asked.is_glass[index], true) {
             let what = format!("\"{}\" is glass of another [[window]], too", component.name);
             return Err(table.wrong("component", message![what; "name each once"]));
         }
         let name = table.named(table.written.site.window[table.at.0].name.as_ref()).unwrap_or(&component.name);
-        for piece in pieces(mesh, component) {
-            let Some(pane) = pane(mesh, &piece) else {
-                bulky.push(format!("\"{}\"", component.name));
-                continue;
-            };
-            if pane.share < RECTANGLE {
-                odd.push(format!("\"{}\"", component.name));
-            }
+        let panes: Vec<Option<Pane>> = pieces(mesh, component).iter().map(|piece| pane(mesh, piece)).collect();
+        let said = || format!("\"{}\"", component.name);
+        bulky.extend(panes.iter().filter(|pane| pane.is_none()).map(|_| said()));
+        let (panes, count) = joined(panes.into_iter().flatten().collect());
+        doubled.extend((0..count).map(|_| said()));
+        for pane in panes {
+            odd.extend((pane.share < RECTANGLE).then(said));
             found += 1;
             let [corners, other_side] = pane.sides;
             asked.list.push(JudgedWindow {
@@ -127,18 +127,21 @@ fn add_panes(
         let what = "has no flat piece, as a pane is: at most 25 cm thick, and half as thick as wide and high";
         return Err(table.wrong("component", message![what; "name the glass alone"]));
     }
-    let notes = [
-        (bulky, "not flat, as panes are, and no windows"),
-        (odd, "no rectangles: the rectangle around each is judged"),
-    ];
-    for (mut of, what) in notes {
-        let count = of.len();
-        of.dedup();
-        let (pieces, are) = if count == 1 { ("piece", "is") } else { ("pieces", "are") };
-        let note = || message![format!("{count} {pieces} of {} {are} {what}", few(of)); "name the glass alone"];
-        asked.notes.extend((count > 0).then(note));
-    }
+    asked.notes.extend(note_pieces(bulky, ["is", "are"], "not flat, as panes are, and no windows"));
+    asked.notes.extend(note_pieces(odd, ["is", "are"], "no rectangles: the rectangle around each is judged"));
+    let behind =
+        "at most 20 cm behind others, as in double glazing: together they are one window, judged at its outer pane";
+    asked.notes.extend(note_pieces(doubled, ["lies", "lie"], behind));
     Ok(())
+}
+
+/// A note on pieces of some components, with a verb for one piece and for more.
+fn note_pieces(mut of: Vec<String>, [one, more]: [&str; 2], what: &str) -> Option<Message> {
+    let count = of.len();
+    of.dedup();
+    let (pieces, verb) = if count == 1 { ("piece", one) } else { ("pieces", more) };
+    let note = || message![format!("{count} {pieces} of {} {verb} {what}", few(of)); "name the glass alone"];
+    (count > 0).then(note)
 }
 
 /// Numbers the windows that share a name, and refuses names that are written twice.

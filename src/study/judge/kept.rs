@@ -1,4 +1,4 @@
-//! What must keep its sun by a rule: the places of each receiver, and how much sun must stay at which times.
+//! What must keep its sun by a rule or for given hours: the places of each receiver, and how much sun must stay at which times.
 
 use super::super::envelope::{DaysNeeded, KeptPlace, KeptThing, SunNeeded};
 use super::super::{OnEvent, StudyError, note_models};
@@ -11,25 +11,25 @@ use super::open_spaces::of_dwellings;
 use super::point_light::PointLight;
 use super::samples::AreaSpot;
 use super::windows::{WindowLight, windows};
-use crate::judgement::{CountedParts, DeemedBorder, PartTriangle};
-use crate::rules::{Band, HeightOver, ResolvedRule, RuleDay, RuleReceiver};
+use crate::judgement::{CountedParts, DeemedBorder, PartTriangle, PlotSpot};
+use crate::rules::{Band, HeightOver, KEEP_HOURS, ResolvedRule, RuleDay, RuleError, RuleNeed, RuleReceiver, SunDemand};
 use crate::shadow::JUDGED_ABOVE_M;
 use crate::site::{JudgedArea, JudgedPlot, JudgedSite, JudgedWindow};
 use glam::DVec3;
 use rayon::prelude::*;
 
 /// What must keep its sun, and on which days.
-pub struct KeptByRule {
+pub struct KeptByDemand {
     /// Each receiver.
     pub things: Vec<KeptThing>,
     /// Whether all of the days count, or one of them.
     pub needed: DaysNeeded,
-    /// The rule's days.
+    /// The days on which it counts.
     pub days: Vec<RuleDay>,
 }
 
 /// Places on an area: this many along the side of a square of the same size, but no closer together than this, metres.
-const ACROSS: f64 = 8.0;
+const ACROSS: f64 = 16.0;
 const LEAST_M: f64 = 0.25;
 
 /// The distance between places along the lines around a plot, metres.
@@ -42,33 +42,87 @@ const LOWEST_DEG: f64 = 0.5;
 /// The number of places that are searched between two calls of the listener.
 const TOGETHER: usize = 64;
 
-/// Finds what a rule protects on a site. The lines around the plot reach as far as the shadow of something `highest_m`
+/// The plot on which something is to be built such that all that is protected keeps its sun.
+///
+/// # Errors
+/// [`StudyError`] with everything that the demand needs and the site lacks.
+pub fn plot_to_build_on<'s>(site: &'s JudgedSite, demand: SunDemand<'_>) -> Result<&'s JudgedPlot, StudyError> {
+    let missing = || RuleNeed::of_key("the plot that is built on", "[plot]", "");
+    let mut needs = match demand {
+        SunDemand::Rule(_, rule) => needs::lacking(rule, site),
+        SunDemand::Hours(..) if rules_of(site, demand).is_empty() => vec![RuleNeed::of_key(
+            "a window, an area or a façade, whose sun is to stay",
+            "[[window]], [[area]] or [[facade]]",
+            "",
+        )],
+        SunDemand::Hours(..) => Vec::new(),
+    };
+    let knows_plot = needs.iter().any(|need| need.said_at == missing().said_at);
+    needs.extend((site.plot.is_none() && !knows_plot).then(missing));
+    match (&site.plot, demand) {
+        (Some(plot), _) if needs.is_empty() => Ok(plot),
+        (_, SunDemand::Rule(_, rule)) => Err(RuleError::Needs { rule: rule.id.clone(), needs }.into()),
+        (_, SunDemand::Hours(..)) => Err(StudyError::hours_need(&needs)),
+    }
+}
+
+/// The rule that is asked; or, for given hours, one for each kind of thing that the site has.
+fn rules_of(site: &JudgedSite, demand: SunDemand<'_>) -> Vec<ResolvedRule> {
+    let has = |receiver: &RuleReceiver| match receiver {
+        RuleReceiver::Window { .. } => !site.windows.is_empty(),
+        RuleReceiver::Facade => !site.facades.is_empty(),
+        RuleReceiver::Area { .. } => !site.areas.is_empty(),
+        RuleReceiver::Lines { .. } => site.plot.is_some(),
+    };
+    match demand {
+        SunDemand::Rule(_, rule) => vec![rule.clone()],
+        SunDemand::Hours(secs, _) => {
+            KEEP_HOURS.into_iter().filter(has).map(|receiver| ResolvedRule::of_hours(receiver, secs)).collect()
+        }
+    }
+}
+
+/// Finds what is protected on a site. The lines around the plot reach as far as the shadow of something `highest_m`
 /// high.
 ///
 /// # Errors
-/// [`StudyError`]; [`StudyError::NoEnvelope`] if the rule does not say how much sun must stay.
+/// [`StudyError`]; [`StudyError::NoEnvelope`] if a rule does not say how much sun must stay.
 pub fn kept_by(
     site: &JudgedSite,
-    rule: &ResolvedRule,
+    demand: SunDemand<'_>,
     highest_m: f64,
     on_event: &mut OnEvent<'_>,
-) -> Result<KeptByRule, StudyError> {
+) -> Result<KeptByDemand, StudyError> {
     note_models(&site.notes, on_event)?;
-    needs::check(rule, site)?;
-    let needed = days_needed(rule)?;
-    let calendar = rule.calendar(&site.place, site.year)?;
-    let hulls = hulls(&site.place, &calendar)?;
-    let days = JudgedDays::new(site, rule.cuts, &calendar, &hulls)?;
-    let judging = Judging { site, rule, days: &days, before: None };
-    let Some(first) = hulls.first() else { return Err(StudyError::NoDay) };
-    let mut steps = Steps::new(on_event, judging.count(), first.from)?;
-    let things = match &rule.receiver {
-        RuleReceiver::Window { .. } => of_windows(&judging, &mut steps)?,
-        RuleReceiver::Facade => of_facades(&judging, &mut steps)?,
-        RuleReceiver::Area { .. } => of_areas(&judging, needed, &mut steps)?,
-        RuleReceiver::Lines { .. } => of_lines(&judging, highest_m, &mut steps)?,
+    plot_to_build_on(site, demand)?;
+    let (needed, calendar, hulls) = match demand {
+        SunDemand::Rule(_, rule) => {
+            let needed = days_needed(rule)?;
+            let calendar = rule.calendar(&site.place, site.year)?;
+            let hulls = hulls(&site.place, &calendar)?;
+            (needed, calendar, hulls)
+        }
+        SunDemand::Hours(_, days) => (DaysNeeded::Each, days.iter().map(RuleDay::of_hours).collect(), days.to_vec()),
     };
-    Ok(KeptByRule { things, needed, days: calendar })
+    let rules = rules_of(site, demand);
+    let cuts = rules.first().map(|rule| rule.cuts).unwrap_or_default();
+    let days = JudgedDays::new(site, cuts, &calendar, &hulls)?;
+    let judgings: Vec<Judging<'_>> =
+        rules.iter().map(|rule| Judging { site, rule, days: &days, before: None }).collect();
+    // by night nothing bounds the heights, which would look like an answer
+    let has_sun = days.open(None).iter().any(|spells| !spells.is_empty());
+    let Some(first) = hulls.first().filter(|_| has_sun) else { return Err(StudyError::NoDay) };
+    let mut steps = Steps::new(on_event, judgings.iter().map(Judging::count).sum(), first.from)?;
+    let mut things = Vec::new();
+    for judging in &judgings {
+        things.extend(match &judging.rule.receiver {
+            RuleReceiver::Window { .. } => of_windows(judging, &mut steps)?,
+            RuleReceiver::Facade => of_facades(judging, &mut steps)?,
+            RuleReceiver::Area { .. } => of_areas(judging, needed, &mut steps)?,
+            RuleReceiver::Lines { .. } => of_lines(judging, highest_m, &mut steps)?,
+        });
+    }
+    Ok(KeptByDemand { things, needed, days: calendar })
 }
 
 /// A place, from its light.
@@ -82,7 +136,7 @@ fn place(
         demand.on(judging.rule, day, &light.open[at], &light.now[at])
     };
     let days = judging.days.days.iter().zip(0..).map(of_day).collect::<Result<_, _>>()?;
-    Ok(KeptPlace { weight, points, days })
+    Ok(KeptPlace { weight, points, around_m: 0.0, days })
 }
 
 /// A thing whose places must all keep their sun.
@@ -163,31 +217,39 @@ fn of_area(
     let counted = CountedParts::of(&judging.rule.receiver, area);
     let (parts, m2) = (&counted.triangles, counted.m2());
     let on = AreaPlace::new(judging, states, &area.surface, parts);
-    let spots = spots(parts, (m2.sqrt() / ACROSS).max(LEAST_M));
-    let of = |(spot, m2): &(AreaSpot, f64)| -> Result<_, StudyError> {
-        place(judging, demand, (*m2, vec![on.judged_now(spot).point]), &on.light(spot)?)
+    let parts = small_parts(parts, (m2.sqrt() / ACROSS).max(LEAST_M));
+    let of = |triangle: &PartTriangle| -> Result<_, StudyError> {
+        let at = triangle.corners.iter().sum::<DVec3>() / 3.0;
+        let spot = AreaSpot { at, normal: triangle.normal };
+        // all of the triangle keeps the sun of its middle, from its lowest corner on
+        let away = |corner: &DVec3| corner.truncate().distance(at.truncate());
+        let around_m = triangle.corners.iter().map(away).fold(0.0, f64::max);
+        let lower_m = triangle.corners.iter().map(|corner| at.z - corner.z).fold(0.0, f64::max);
+        let point = on.judged_now(&spot).point - DVec3::Z * lower_m;
+        let place = place(judging, demand, (triangle.m2, vec![point]), &on.light(&spot)?)?;
+        Ok(KeptPlace { around_m, ..place })
     };
-    in_steps(&spots, steps, of)
+    in_steps(&parts, steps, of)
 }
 
-/// The centres of triangles whose sides are at most this long, each with the triangle's area in square metres.
-fn spots(parts: &[PartTriangle], longest_m: f64) -> Vec<(AreaSpot, f64)> {
-    let mut spots = Vec::new();
-    for part in parts {
-        let mut waiting = vec![(part.corners, part.m2)];
-        while let Some((corners, m2)) = waiting.pop() {
-            let length = |first: usize| corners[first].distance(corners[(first + 1) % 3]);
-            let longest = (0..3).max_by(|one, other| length(*one).total_cmp(&length(*other))).unwrap_or(0);
-            if length(longest) <= longest_m {
-                spots.push((AreaSpot { at: corners.iter().sum::<DVec3>() / 3.0, normal: part.normal }, m2));
-                continue;
-            }
-            let [a, b, c] = [0, 1, 2].map(|step| corners[(longest + step) % 3]);
-            let middle = (a + b) / 2.0;
-            waiting.extend([([a, middle, c], m2 / 2.0), ([middle, b, c], m2 / 2.0)]);
+/// Cuts triangles into those whose sides are at most this long.
+fn small_parts(parts: &[PartTriangle], longest_m: f64) -> Vec<PartTriangle> {
+    let mut small = Vec::new();
+    let mut waiting: Vec<PartTriangle> = parts.to_vec();
+    while let Some(part) = waiting.pop() {
+        let PartTriangle { corners, m2, .. } = part;
+        let length = |first: usize| corners[first].distance(corners[(first + 1) % 3]);
+        let longest = (0..3).max_by(|one, other| length(*one).total_cmp(&length(*other))).unwrap_or(0);
+        if length(longest) <= longest_m {
+            small.push(part);
+            continue;
         }
+        let [a, b, c] = [0, 1, 2].map(|step| corners[(longest + step) % 3]);
+        let middle = (a + b) / 2.0;
+        let half = |corners: [DVec3; 3]| PartTriangle { corners, m2: m2 / 2.0, ..part };
+        waiting.extend([half([a, middle, c]), half([middle, b, c])]);
     }
-    spots
+    small
 }
 
 fn of_lines(judging: &Judging<'_>, highest_m: f64, steps: &mut Steps<'_, '_>) -> Result<Vec<KeptThing>, StudyError> {
@@ -203,18 +265,19 @@ fn of_lines(judging: &Judging<'_>, highest_m: f64, steps: &mut Steps<'_, '_>) ->
     let mut things = Vec::new();
     for (number, band) in bands.iter().enumerate() {
         let demand = RuleDemand::of(judging.rule, Some(number))?;
-        let points: Vec<DVec3> = border
-            .spots(*band, band.from_m + reach_m, SPACING_M)
-            .into_iter()
-            .map(|spot| spot.at.extend(base + height_m + spot.raised_m))
-            .collect();
-        let states = judging.states(&points);
-        let of = |point: &DVec3| -> Result<_, StudyError> {
-            let judged = states.now.free(*point, None);
+        let spots = border.spots(*band, band.from_m + reach_m, SPACING_M);
+        let point = |spot: &PlotSpot| spot.at.extend(base + height_m + spot.raised_m);
+        let states = judging.states(&spots.iter().map(point).collect::<Vec<_>>());
+        let of = |spot: &PlotSpot| -> Result<_, StudyError> {
+            let judged = states.now.free(point(spot), None);
             let now = states.now.lit(&judged, judging.days, &open)?;
-            place(judging, &demand, (1.0, vec![judged.point]), &PointLight { open: open.clone(), now, before: None })
+            let light = PointLight { open: open.clone(), now, before: None };
+            // it stands for the line as far as halfway to its neighbours
+            let around_m = DeemedBorder::spacing_m(border.distance_m(spot.at), SPACING_M) / 2.0;
+            let place = place(judging, &demand, (1.0, vec![judged.point]), &light)?;
+            Ok(KeptPlace { around_m, ..place })
         };
-        let places = in_steps(&points, steps, of)?;
+        let places = in_steps(&spots, steps, of)?;
         things.push(whole(named(number, *band), places));
         steps.done(1)?;
     }

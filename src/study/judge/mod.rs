@@ -26,6 +26,6 @@ mod whole;
 mod windows;
 
 pub use asking::judge;
-pub use kept::{KeptByRule, kept_by};
+pub use kept::{KeptByDemand, kept_by, plot_to_build_on};
 #[cfg(feature = "test-hooks")]
 pub use parts::{MeasuredPart, measured_part};

@@ -18,6 +18,12 @@ const MOST_NAMES: usize = 30;
 /// # Errors
 /// [`RuleError::Needs`] with all of it.
 pub(super) fn check(rule: &ResolvedRule, site: &JudgedSite) -> Result<(), RuleError> {
+    let needs = lacking(rule, site);
+    if needs.is_empty() { Ok(()) } else { Err(RuleError::Needs { rule: rule.id.clone(), needs }) }
+}
+
+/// What a rule needs and a site lacks.
+pub(super) fn lacking(rule: &ResolvedRule, site: &JudgedSite) -> Vec<RuleNeed> {
     let mut needs = Vec::new();
     match &rule.receiver {
         receiver @ RuleReceiver::Area { .. } => of_areas(site, receiver, &mut needs),
@@ -30,10 +36,7 @@ pub(super) fn check(rule: &ResolvedRule, site: &JudgedSite) -> Result<(), RuleEr
     if compares && rule.compare == Some(CompareWith::Before) && site.before.is_none() {
         needs.push(RuleNeed::of_key("the state before, with which it compares", "[before]", ""));
     }
-    if needs.is_empty() {
-        return Ok(());
-    }
-    Err(RuleError::Needs { rule: rule.id.clone(), needs })
+    needs
 }
 
 fn of_areas(site: &JudgedSite, receiver: &RuleReceiver, needs: &mut Vec<RuleNeed>) {

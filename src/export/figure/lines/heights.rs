@@ -2,7 +2,7 @@
 
 use super::hours::label;
 use super::labels::Labels;
-use super::{LineDrawing, LineGroup, Scale, fill, group, paths, stroke};
+use super::{Line, LineDrawing, LineGroup, Scale, fill, group, paths, stroke};
 use crate::contour::{Contour, ScalarField, contours};
 use crate::export::check_size;
 use crate::export::envelope::EnvelopeMap;
@@ -15,17 +15,29 @@ use crate::export::figure::{self, words};
 use crate::export::{ExportError, report};
 use crate::look::LOOK;
 
-/// The colours of the ground, of buildings, of the lowest and of the greatest height, and of lines.
+/// The colours of the ground, of buildings, of the lowest and of the greatest height, of where no sun is in the way, and of
+/// lines.
 const GROUND: Rgb = LOOK.lines_ground;
 const BUILDING: Rgb = [227, 223, 214];
 const LOW: Rgb = [252, 233, 196];
 const HIGH: Rgb = [96, 132, 172];
+const FREE: Rgb = [206, 219, 196];
 const LINE: Rgb = [58, 66, 84];
 const LABEL: LetterStyle = LetterStyle { size: 27.0, weight: FontWeight::Bold, colour: LINE };
 const WIDTH: f64 = 2.6;
+const SIDE_WIDTH: f64 = 1.6;
 const APART: f64 = 240.0;
+/// Neighbouring cells whose heights differ by more steps than this have a steep side between them.
+const STEEP_STEPS: u64 = 2;
 /// The most lines; more could not be told apart.
 const MOST_LINES: f64 = 16.0;
+
+/// Where at least so much may be built, with the colour up to the next band.
+struct HeightBand {
+    from_mm: u64,
+    tone: Rgb,
+    contours: Vec<Contour>,
+}
 
 /// `envelope`: a labelled line for each whole step of height, on a plan of the plot.
 ///
@@ -42,12 +54,21 @@ pub fn heights(map: &EnvelopeMap) -> Result<LineDrawing, ExportError> {
     let is_plot = |cell: usize| map.height(cell).is_some();
     // a millimetre more than the height, so that what is as high as a line lies above it
     let value = |cell: usize| map.height(cell).map_or(0, |height| (f64::from(height).max(0.0) * 1000.0) as u64 + 1);
-    let open = |one: usize, other: usize| is_plot(one) && is_plot(other);
+    // a steep side, on which many lines would lie, is a line of its own
+    let is_steep = |one: usize, other: usize| value(one).abs_diff(value(other)) > STEEP_STEPS * step_mm;
+    let open = |one: usize, other: usize| is_plot(one) && is_plot(other) && !is_steep(one, other);
     let field = ScalarField { width: grid.width, height: grid.height, value: &value, open: &open };
-    let bands: Vec<(u64, Vec<Contour>)> =
-        (first..last.max(first + 1)).map(|step| (step * step_mm, contours(&field, step * step_mm))).collect();
+    let cap_mm = (f64::from(map.cap_m) * 1000.0) as u64;
+    let steps = (first..last.max(first + 1)).map(|step| step * step_mm).filter(|from_mm| *from_mm < cap_mm);
+    let mut bands: Vec<HeightBand> =
+        steps.map(|from_mm| HeightBand { from_mm, tone: LOW, contours: contours(&field, from_mm) }).collect();
+    let count = bands.len();
+    bands.iter_mut().enumerate().for_each(|(at, band)| band.tone = tone(at, count));
+    if range[1] >= map.cap_m {
+        bands.push(HeightBand { from_mm: cap_mm, tone: FREE, contours: contours(&field, cap_mm) });
+    }
     let draw = |fit: Fit| sheet(map, &bands, step_mm, fit);
-    let panel = panel(map, &bands, step_mm, range);
+    let panel = panel(map, &bands, (step_mm, cap_mm), range);
     Ok(LineDrawing::new(&panel, (grid.width, grid.height), grid.cell, draw))
 }
 
@@ -63,7 +84,7 @@ fn tone(band: usize, count: usize) -> Rgb {
     mix(LOW, HIGH, if count > 1 { band as f64 / (count - 1) as f64 } else { 0.5 })
 }
 
-fn sheet(map: &EnvelopeMap, bands: &[(u64, Vec<Contour>)], step_mm: u64, fit: Fit) -> Block {
+fn sheet(map: &EnvelopeMap, bands: &[HeightBand], step_mm: u64, fit: Fit) -> Block {
     let scale = Scale::of(fit);
     let mut block = Block::default();
     group(&mut block, "ground", |block| {
@@ -75,22 +96,24 @@ fn sheet(map: &EnvelopeMap, bands: &[(u64, Vec<Contour>)], step_mm: u64, fit: Fi
     // below the heights, whose colours say how high: what stands on the plot is an outline there
     group(&mut block, "buildings", |block| fill(block, &scale.areas(&buildings), BUILDING, 1.0));
     group(&mut block, "heights", |block| {
-        for (at, (_, contours)) in bands.iter().enumerate() {
-            fill(block, &scale.areas(contours), tone(at, bands.len()), 1.0);
+        bands.iter().for_each(|band| fill(block, &scale.areas(&band.contours), band.tone, 1.0));
+    });
+    group(&mut block, "sides", |block| {
+        for band in bands {
+            stroke(block, &scale.areas(&band.contours), SIDE_WIDTH, LINE, "");
         }
     });
     group(&mut block, "outlines", |block| scale.lines(&buildings).draw(block, 2.0, INK, ""));
     let lines: Vec<(String, LineGroup)> =
-        bands.iter().map(|(from_mm, contours)| (said(*from_mm, step_mm), scale.lines(contours))).collect();
+        bands.iter().map(|band| (said(band.from_mm, step_mm), scale.lines(&band.contours))).collect();
     group(&mut block, "lines", |block| {
         lines.iter().for_each(|(said, lines)| lines.draw(block, WIDTH, LINE, said));
     });
     let on_page =
         |x: f64, y: f64| scale.point([(x - map.grid.west) / map.grid.cell, (map.grid.north - y) / map.grid.cell]);
+    let border: Line = map.border.iter().chain(map.border.first()).map(|at| on_page(at.x, at.y)).collect();
     group(&mut block, "plot", |block| {
-        let corners = map.border.iter().chain(map.border.first());
-        let border = corners.map(|at| on_page(at.x, at.y)).collect();
-        stroke(block, &paths(&[border]), 6.0, ACCENT, "the plot");
+        stroke(block, &paths(std::slice::from_ref(&border)), 6.0, ACCENT, "the plot");
     });
     group(&mut block, "points", |block| {
         for point in map.points {
@@ -100,6 +123,8 @@ fn sheet(map: &EnvelopeMap, bands: &[(u64, Vec<Contour>)], step_mm: u64, fit: Fi
     });
     let mut labels = Labels::new(fit.pixels, LABEL, APART);
     lines.iter().flat_map(|(_, lines)| lines.all()).for_each(|line| labels.avoid(line));
+    // a thick line, which no label should break
+    (0..4).for_each(|_| labels.avoid(&border));
     for (said, lines) in &lines {
         label(&mut labels, (said, LINE), lines);
     }
@@ -107,7 +132,7 @@ fn sheet(map: &EnvelopeMap, bands: &[(u64, Vec<Contour>)], step_mm: u64, fit: Fi
     block
 }
 
-fn panel(map: &EnvelopeMap, bands: &[(u64, Vec<Contour>)], step_mm: u64, [low, high]: [f32; 2]) -> Panel {
+fn panel(map: &EnvelopeMap, bands: &[HeightBand], (step_mm, cap_mm): (u64, u64), [low, high]: [f32; 2]) -> Panel {
     let place = map.place;
     let name = text::clean(&place.name);
     let mut facts = vec![("Keeps", map.kept.to_owned()), ("Days", map.days.to_owned())];
@@ -120,9 +145,13 @@ fn panel(map: &EnvelopeMap, bands: &[(u64, Vec<Contour>)], step_mm: u64, [low, h
     facts.push(("Heights", format!("{} to {}", words::metres(low.into()), words::metres(high.into()))));
     facts.push(("Below", format!("{} m³", figure::panel::thousands(map.volume_m3()))));
     facts.push(("Refraction", words::refraction(map.refraction, place)));
-    let legend = bands.iter().enumerate().map(|(at, (from_mm, _))| {
-        let to = said(from_mm + step_mm, step_mm);
-        (tone(at, bands.len()), format!("{} to {to}", said(*from_mm, step_mm)))
+    let legend = bands.iter().map(|band| {
+        let from = said(band.from_mm, step_mm);
+        let to = said((band.from_mm + step_mm).min(cap_mm), step_mm);
+        (
+            band.tone,
+            if band.from_mm == cap_mm { format!("{from}: no sun in the way") } else { format!("{from} to {to}") },
+        )
     });
     let mut legend: Vec<(Rgb, String)> = legend.collect();
     legend.push((BUILDING, "buildings".to_owned()));
@@ -145,5 +174,9 @@ fn panel(map: &EnvelopeMap, bands: &[(u64, Vec<Contour>)], step_mm: u64, [low, h
 
 /// `12 m`, `12.5 m`.
 fn said(mm: u64, step_mm: u64) -> String {
-    if step_mm < 1000 { format!("{:.1} m", mm as f64 / 1000.0) } else { format!("{} m", mm / 1000) }
+    if step_mm < 1000 || !mm.is_multiple_of(1000) {
+        format!("{:.1} m", mm as f64 / 1000.0)
+    } else {
+        format!("{} m", mm / 1000)
+    }
 }

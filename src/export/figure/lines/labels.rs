@@ -59,6 +59,14 @@ impl Labels {
         }
     }
 
+    /// Marks the place of text that is drawn otherwise, so that no label covers it.
+    pub(super) fn cover(&mut self, at: [f64; 2], half: [f64; 2]) {
+        let spot = Spot { at, angle: 0.0, cost: 0.0 };
+        for square in self.under(&spot, half).unwrap_or_default() {
+            self.letters[square] = true;
+        }
+    }
+
     fn square(&self, at: [f64; 2]) -> Option<usize> {
         let is_within = (0..2).all(|axis| at[axis] >= 0.0 && at[axis] <= self.size[axis]);
         is_within.then(|| (at[1] / SQUARE) as usize * self.columns + (at[0] / SQUARE) as usize)

@@ -78,9 +78,8 @@ impl SkyChart<'_> {
             let ends = [0.0, length * self.pen].map(|out| at(f64::from(azimuth), radius + out));
             block.polyline(&ends, 2.0 * self.pen, INK);
         }
-        for azimuth in (0..360).step_by(if self.is_small() { 90 } else { 30 }) {
-            let [x, y] = at(f64::from(azimuth), radius + 46.0 * self.pen);
-            rim_label(block, [x, y], azimuth, if self.is_small() { 28.0 } else { 40.0 });
+        for label in self.rim_labels() {
+            label.draw(block);
         }
     }
 
@@ -91,15 +90,37 @@ impl SkyChart<'_> {
             let at = x + width * f64::from(step) / 36.0;
             let length = if azimuth % 30 == 0 { 16.0 } else { 9.0 };
             block.polyline(&[[at, y + height], [at, y + height + length]], 2.0, INK);
-            if azimuth % 30 == 0 {
-                rim_label(block, [at, y + height + 40.0], azimuth, 40.0);
-            }
         }
+        self.rim_labels().iter().for_each(|label| label.draw(block));
         for altitude in (0..=90).step_by(10) {
             let at = y + height * (1.0 - f64::from(altitude) / 90.0);
             block.polyline(&[[x - 9.0, at], [x, at]], 2.0, INK);
             let said = format!("{altitude}°");
             block.text(x - 16.0, at + 10.0, TextAnchor::End, LetterStyle::FINE, &said);
+        }
+    }
+
+    /// The azimuths at the rim.
+    pub(super) fn rim_labels(&self) -> Vec<RimLabel> {
+        let ([x, y], [width, height]) = (self.corner, self.size());
+        let size = if self.is_small() { 28.0 } else { 40.0 };
+        let every = if self.is_small() { 90 } else { 30 };
+        match self.raster.picture.projection {
+            SkyProjection::Stereographic => {
+                let away = width / 2.0 + 46.0 * self.pen;
+                let at = |azimuth: i32| {
+                    let (sin, cos) = f64::from(azimuth).to_radians().sin_cos();
+                    [x + width / 2.0 + sin * away, y + width / 2.0 - cos * away]
+                };
+                (0..360).step_by(every).map(|azimuth| RimLabel { at: at(azimuth), azimuth, size }).collect()
+            }
+            SkyProjection::Cylindrical { middle_rad } => {
+                let first = middle_rad.to_degrees() as i32 + 180;
+                let steps = (0..=36).map(|step| ((first + 10 * step).rem_euclid(360), step));
+                let labelled = steps.filter(|(azimuth, _)| azimuth % every as i32 == 0);
+                let at = |step: i32| [x + width * f64::from(step) / 36.0, y + height + 40.0];
+                labelled.map(|(azimuth, step)| RimLabel { at: at(step), azimuth, size }).collect()
+            }
         }
     }
 
@@ -114,12 +135,23 @@ impl SkyChart<'_> {
     }
 }
 
-/// The cardinal direction in bold, or degrees.
-fn rim_label(block: &mut Block, [x, y]: [f64; 2], azimuth: i32, size: f64) {
-    let cardinal = [(0, "N"), (90, "E"), (180, "S"), (270, "W")].into_iter().find(|(at, _)| *at == azimuth);
-    let (style, said) = match cardinal {
-        Some((_, letter)) => (LetterStyle { size, ..LetterStyle::HEAD }, letter.to_owned()),
-        None => (LetterStyle::FINE, format!("{azimuth}°")),
-    };
-    block.text(x, y + style.size * 0.36, TextAnchor::Middle, style, &said);
+/// An azimuth at a chart's rim: the cardinal direction in bold, or degrees.
+pub(super) struct RimLabel {
+    /// Its middle.
+    pub(super) at: [f64; 2],
+    azimuth: i32,
+    /// The height of cardinal directions.
+    pub(super) size: f64,
+}
+
+impl RimLabel {
+    fn draw(&self, block: &mut Block) {
+        let [x, y] = self.at;
+        let cardinal = [(0, "N"), (90, "E"), (180, "S"), (270, "W")].into_iter().find(|(at, _)| *at == self.azimuth);
+        let (style, said) = match cardinal {
+            Some((_, letter)) => (LetterStyle { size: self.size, ..LetterStyle::HEAD }, letter.to_owned()),
+            None => (LetterStyle::FINE, format!("{}°", self.azimuth)),
+        };
+        block.text(x, y + style.size * 0.36, TextAnchor::Middle, style, &said);
+    }
 }

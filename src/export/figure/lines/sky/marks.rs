@@ -7,17 +7,25 @@ use super::tones::{CLOCK, SUN, SUNDIAL, WAY};
 use crate::export::figure::lines::labels::{self, Labels, Spot};
 use crate::export::figure::scale::mix;
 use crate::export::figure::svg::{GRAY, INK};
+use crate::sun::Zone;
 use crate::sunlight::{HourLine, ProbeWay};
-use chrono::{Datelike, NaiveDate};
+use chrono::{DateTime, Datelike, NaiveDate};
 use glam::DVec3;
+
+/// Spells in the sun and gaps between them that are shorter than this have no times in a chart, where they would cover each
+/// other, seconds. The panel and the answer have them.
+const SHORT_SECS: i64 = 300;
 
 /// The most times that are written in a chart; if there are more, the panel's table has those that fit, and the
 /// command's answer has all.
 const MOST_TIMES: usize = 12;
 
 impl SkyChart<'_> {
-    /// Lines that labels should not cover.
+    /// Lines that labels should not cover, and the letters at the rim, which they must not.
     pub(super) fn avoid(&self, labels: &mut Labels, shown: &SkyContext) {
+        for label in self.rim_labels() {
+            labels.cover(label.at, [0.7 * label.size, 0.5 * label.size]);
+        }
         for run in shown.lines.months.iter().flat_map(|month| &month.runs) {
             self.parts(run).iter().for_each(|part| labels.avoid(part));
         }
@@ -56,13 +64,19 @@ impl SkyChart<'_> {
         }
     }
 
-    /// The times at which the sun comes and goes.
+    /// The times at which the sun comes and goes, for more than a moment.
     fn times(&self, labels: &mut Labels, way: &ProbeWay) {
-        let ends = way.intervals.iter().zip(&way.lit).filter_map(|(interval, lit)| {
-            let [first, last] = [lit.first()?, lit.last()?];
-            Some([(interval.start, *first), (interval.end, *last)])
-        });
-        for (time, to) in ends.flatten().take(MOST_TIMES) {
+        let mut spells: Vec<[(DateTime<Zone>, DVec3); 2]> = Vec::new();
+        for (interval, lit) in way.intervals.iter().zip(&way.lit) {
+            let (Some(first), Some(last)) = (lit.first(), lit.last()) else { continue };
+            let [start, end] = [(interval.start, *first), (interval.end, *last)];
+            match spells.last_mut().filter(|before| secs([before[1], start]) < SHORT_SECS) {
+                Some(before) => before[1] = end,
+                None => spells.push([start, end]),
+            }
+        }
+        spells.retain(|spell| secs(*spell) >= SHORT_SECS);
+        for (time, to) in spells.into_iter().flatten().take(MOST_TIMES) {
             let at = self.place(to);
             let mut spots = around(at, &[44.0, 62.0, 84.0]);
             labels.place(&time.format("%H:%M").to_string(), mix(SUN, INK, 0.62), &mut spots);
@@ -123,6 +137,10 @@ impl SkyChart<'_> {
         }
         labels.place(roman(hour.hour), SUNDIAL, &mut spots);
     }
+}
+
+fn secs([from, to]: [(DateTime<Zone>, DVec3); 2]) -> i64 {
+    (to.0 - from.0).num_seconds()
 }
 
 /// Positions around a point, at a distance.
