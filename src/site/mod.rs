@@ -19,7 +19,8 @@ mod ground;
 mod in_memory;
 mod inputs;
 mod judged;
-mod judged_tables;
+#[doc(hidden)]
+pub mod judged_tables;
 mod key_notes;
 mod key_table;
 mod keys;
@@ -65,6 +66,8 @@ pub use inputs::inputs;
 pub use judged::{
     AreaSurface, JudgedArea, JudgedFacade, JudgedPlot, JudgedSite, JudgedState, JudgedWindow, PlotSide, load_judged,
 };
+#[cfg(feature = "desktop")]
+pub(crate) use judged::{border_fault, judged_with_models};
 #[doc(hidden)]
 pub use key_table::{SITE_KEYS, SITE_TABLES, SiteKey, ValueType};
 pub use likeness::{Likeness, Mend};
