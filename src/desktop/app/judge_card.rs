@@ -90,13 +90,16 @@ fn days(ui: &mut Ui, strips: &[DayStrip], day: &mut usize) {
         ui.label(name(*day));
         return;
     }
-    let list = egui::ComboBox::from_id_salt("day of the strip").selected_text(name(*day));
-    let response = list.show_ui(ui, |ui| {
-        for at in 0..strips.len() {
-            ui.selectable_value(day, at, name(at));
-        }
+    ui.horizontal(|ui| {
+        let label = ui.weak("Day").id;
+        let list = egui::ComboBox::from_id_salt("day of the strip").selected_text(name(*day));
+        let response = list.show_ui(ui, |ui| {
+            for at in 0..strips.len() {
+                ui.selectable_value(day, at, name(at));
+            }
+        });
+        response.response.labelled_by(label);
     });
-    response.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, "Day of the strip"));
 }
 
 /// Who takes the sun on the deciding day.

@@ -79,44 +79,11 @@ fn known_as(rule: &Rule) -> String {
 
 /// An option: a list where its values can be listed, otherwise a field.
 fn option_row(ui: &mut Ui, rule: &Rule, option: &RuleOption, choice: &mut RuleChoice) {
-    let name = option_label(&option.name);
-    let default = option.default.as_ref().map(OptionValue::text);
     let value = choice.values.get(&option.name).cloned();
     let mut set = value.clone();
-    ui.weak(&name).on_hover_text(&option.meaning);
-    let chosen = listed(option);
-    let field = match chosen.is_empty() {
-        false => {
-            let text = |value: &str| chosen.iter().find(|(of, _)| of == value).map(|(_, text)| text.clone());
-            let shown = match (&value, &default) {
-                (Some(value), _) => text(value).unwrap_or_else(|| value.clone()),
-                (None, Some(default)) => format!("{default} (default)"),
-                (None, None) => "choose one".to_owned(),
-            };
-            let list = egui::ComboBox::from_id_salt(("option", &option.name)).selected_text(shown).truncate();
-            let response = list.width(ui.available_width()).show_ui(ui, |ui| {
-                if let Some(default) = &default {
-                    ui.selectable_value(&mut set, None, format!("{default} (default)"));
-                }
-                for (value, text) in &chosen {
-                    ui.selectable_value(&mut set, Some(value.clone()), text);
-                }
-            });
-            response.response
-        }
-        true => {
-            let mut text = value.clone().unwrap_or_default();
-            let hint = default.map_or_else(|| option.takes(), |default| format!("{default} (default)"));
-            let response = ui.add(egui::TextEdit::singleline(&mut text).hint_text(hint).desired_width(f32::INFINITY));
-            set = Some(text).filter(|text| !text.trim().is_empty());
-            response
-        }
-    };
-    field.widget_info(|| {
-        let role = if chosen.is_empty() { egui::Role::TextInput } else { egui::Role::ComboBox };
-        egui::WidgetInfo::labeled(role, true, name.clone())
-    });
-    field.on_hover_text(format!("{}: {}", option.meaning, option.takes()));
+    let label = ui.weak(option_label(&option.name)).on_hover_text(&option.meaning).id;
+    let field = option_field(ui, option, &mut set);
+    field.labelled_by(label).on_hover_text(format!("{}: {}", option.meaning, option.takes()));
     match &set {
         Some(text) => {
             if let Err(error) = option.value(&rule.source.id, text) {
@@ -130,6 +97,40 @@ fn option_row(ui: &mut Ui, rule: &Rule, option: &RuleOption, choice: &mut RuleCh
         match set {
             Some(text) => drop(choice.values.insert(option.name.clone(), text)),
             None => drop(choice.values.remove(&option.name)),
+        }
+    }
+}
+
+/// The list or the field of an option; `None` is its default, if it has one.
+fn option_field(ui: &mut Ui, option: &RuleOption, set: &mut Option<String>) -> egui::Response {
+    let default = option.default.as_ref().map(OptionValue::text);
+    let value = set.clone();
+    let chosen = listed(option);
+    match chosen.is_empty() {
+        false => {
+            let text = |value: &str| chosen.iter().find(|(of, _)| of == value).map(|(_, text)| text.clone());
+            let shown = match (&value, &default) {
+                (Some(value), _) => text(value).unwrap_or_else(|| value.clone()),
+                (None, Some(default)) => format!("{default} (default)"),
+                (None, None) => "choose one".to_owned(),
+            };
+            let list = egui::ComboBox::from_id_salt(("option", &option.name)).selected_text(shown).truncate();
+            let response = list.width(ui.available_width()).show_ui(ui, |ui| {
+                if let Some(default) = &default {
+                    ui.selectable_value(set, None, format!("{default} (default)"));
+                }
+                for (value, text) in &chosen {
+                    ui.selectable_value(set, Some(value.clone()), text);
+                }
+            });
+            response.response
+        }
+        true => {
+            let mut text = value.unwrap_or_default();
+            let hint = default.map_or_else(|| option.takes(), |default| format!("{default} (default)"));
+            let response = ui.add(egui::TextEdit::singleline(&mut text).hint_text(hint).desired_width(f32::INFINITY));
+            *set = Some(text).filter(|text| !text.trim().is_empty());
+            response
         }
     }
 }
