@@ -355,3 +355,21 @@ fn rule_beside_the_site_is_listed() {
     settle(&mut harness);
     harness.get_by_label("The request has changed since.");
 }
+
+/// In another folder the site file still finds what says what is judged.
+#[test]
+fn files_of_what_is_judged_are_found_from_another_folder() {
+    let (folder, site) = small_site();
+    let text = std::fs::read_to_string(&site).unwrap();
+    let before = folder.path().join("before.toml");
+    std::fs::write(&before, &text).unwrap();
+    std::fs::write(&site, text + "[before]\nsite = \"before.toml\"\n").unwrap();
+    let mut harness = window(Some(&site));
+    let other = folder.path().join("other");
+    std::fs::create_dir(&other).unwrap();
+    menu(&mut harness, "Save as…");
+    answer(&mut harness, &other.join("site.toml"), "Write");
+    let written = gnomon::site::WrittenSite::read(&other, &gnomon::site::Overrides::default()).unwrap();
+    let site_before = written.site.before.unwrap().site.unwrap();
+    assert!(written.folder.join(&site_before).is_file(), "{site_before}");
+}

@@ -9,6 +9,9 @@ use crate::export::judgement::{BarKind, DayStrip, TakerRow, day_strips, receiver
 use crate::judgement::ReceiverRuling;
 use eframe::egui::{self, RichText, Ui};
 
+/// The most members of a group that are listed.
+const MOST_MEMBERS: usize = 100;
+
 /// What was done on the card.
 pub(in crate::desktop) enum CardAction {
     Close,
@@ -116,8 +119,8 @@ fn takers(ui: &mut Ui, judged: &JudgedResult, receiver: &ReceiverRuling) {
 
 /// The receivers of a group, as links.
 fn members(ui: &mut Ui, judged: &JudgedResult, of: LineOf) -> Option<CardAction> {
-    let mut chosen = None;
-    for at in judged.receivers_of(of) {
+    let (mut chosen, all) = (None, judged.receivers_of(of));
+    for at in all.iter().copied().take(MOST_MEMBERS) {
         let Some(line) = judged.lines.iter().find(|line| line.of == LineOf::Receiver(at)) else { continue };
         ui.horizontal(|ui| {
             verdict::swatch(ui, line.verdict);
@@ -125,6 +128,9 @@ fn members(ui: &mut Ui, judged: &JudgedResult, of: LineOf) -> Option<CardAction>
                 chosen = Some(CardAction::Choose(line.of));
             }
         });
+    }
+    if all.len() > MOST_MEMBERS {
+        ui.weak(format!("and {} more, in the table", all.len() - MOST_MEMBERS));
     }
     chosen
 }

@@ -5,6 +5,7 @@ use crate::desktop::app::state::App;
 use crate::desktop::parts::theme;
 use crate::desktop::parts::verdict;
 use crate::desktop::results::judged::{JudgedLine, JudgedResult, LineOf, SortBy};
+use crate::desktop::state::judging::option_label;
 use crate::export::judgement::CHECK;
 use crate::rules::Verdict;
 use eframe::egui::{self, Align2, FontSelection, Rect, RichText, Sense, Ui, pos2, vec2};
@@ -50,6 +51,11 @@ fn heading(app: &mut App, ui: &mut Ui, judged: &JudgedResult) {
     });
     ui.label(format!("{}, {}", source.name, source.region)).on_hover_text(said_of(judged));
     ui.label(judged.totals());
+    let chosen = judgement.rule.chosen.iter().map(|(name, value)| format!("{}: {}", option_label(name), value.text()));
+    let chosen: Vec<String> = chosen.collect();
+    if !chosen.is_empty() {
+        ui.add(egui::Label::new(RichText::new(chosen.join(", ")).weak()).wrap());
+    }
     ui.add(egui::Label::new(RichText::new(CHECK).weak().small()).wrap());
     let (mut exports, mut closes) = (false, false);
     let is_asked = app.open.as_ref().is_some_and(|open| judged.is_asked(&open.project, &open.judge.choice));
@@ -74,11 +80,10 @@ fn heading(app: &mut App, ui: &mut Ui, judged: &JudgedResult) {
 fn said_of(judged: &JudgedResult) -> String {
     let judgement = judged.judgement();
     let source = &judgement.source;
-    let options = judgement.rule.chosen.iter().map(|(name, value)| format!("{name} = {}", value.text()));
     let assumed = source.assumes.iter().map(|assumed| format!("Assumed: {assumed}"));
     let known = format!("Known as {}: {}", source.confidence, source.confidence.meaning());
     let first = [format!("{} ({}), {}", source.id, source.kind, source.edition), source.sources.join(", "), known];
-    first.into_iter().chain(options).chain(assumed).collect::<Vec<_>>().join("\n")
+    first.into_iter().chain(assumed).collect::<Vec<_>>().join("\n")
 }
 
 /// The columns' right ends, from the left edge of a row.
@@ -129,29 +134,22 @@ fn headings(ui: &mut Ui, columns: &Columns, (sort, is_reversed): (SortBy, bool))
     let mut clicked = None;
     let mut heading = |name: &str, from: f32, to: f32, by: Option<SortBy>, align: egui::Align| {
         let place = Rect::from_min_max(rect.min + vec2(from, 0.0), pos2(rect.left() + to, rect.bottom()));
-        let mark = match by {
-            Some(by) if by == sort => {
-                if is_reversed {
-                    " ↑"
-                } else {
-                    " ↓"
-                }
-            }
-            _ => "",
-        };
-        let layout = egui::Layout::left_to_right(egui::Align::Center).with_main_align(align);
-        let builder = egui::UiBuilder::new().max_rect(place).layout(match align {
+        let layout = match align {
             egui::Align::Max => egui::Layout::right_to_left(egui::Align::Center),
-            _ => layout,
-        });
+            _ => egui::Layout::left_to_right(egui::Align::Center),
+        };
+        let builder = egui::UiBuilder::new().id_salt(name).max_rect(place).layout(layout);
         let mut cell = ui.new_child(builder);
-        let text = RichText::new(format!("{name}{mark}")).weak();
+        let text = RichText::new(name).weak();
         match by {
             None => drop(cell.label(text)),
             Some(by) => {
                 let response = cell.add(egui::Button::new(text).frame(false));
                 let label = format!("Sort by {name}");
                 response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, label.clone()));
+                if by == sort {
+                    mark(ui, response.rect, is_reversed);
+                }
                 if response.clicked() {
                     clicked = Some(by);
                 }
@@ -168,6 +166,14 @@ fn headings(ui: &mut Ui, columns: &Columns, (sort, is_reversed): (SortBy, bool))
         heading("taken by", columns.day + 10.0, columns.width, None, left);
     }
     clicked
+}
+
+/// A triangle below the heading by which the lines are sorted; it points up where their order is the opposite one.
+fn mark(ui: &Ui, heading: Rect, is_reversed: bool) {
+    let (middle, way) = (pos2(heading.center().x, heading.bottom() - 2.0), if is_reversed { -1.0 } else { 1.0 });
+    let corners = [vec2(-4.0, -2.0 * way), vec2(4.0, -2.0 * way), vec2(0.0, 2.0 * way)].map(|by| middle + by);
+    let colour = theme::accent(ui.visuals());
+    ui.painter().add(egui::Shape::convex_polygon(corners.to_vec(), colour, egui::Stroke::NONE));
 }
 
 /// A line. Returns whether it was clicked.
@@ -189,7 +195,7 @@ fn row(ui: &mut Ui, columns: &Columns, line: &JudgedLine, is_chosen: bool, heigh
         let cell = Rect::from_min_max(pos2(rect.left() + from, rect.top()), pos2(rect.left() + to, rect.bottom()));
         let painter = ui.painter_at(cell.intersect(ui.clip_rect()));
         let at = if align == Align2::LEFT_CENTER { cell.left_center() } else { cell.right_center() };
-        painter.text(at, align, text.replace('-', "−"), font.clone(), colour);
+        painter.text(at, align, text, font.clone(), colour);
     };
     let (left, right) = (Align2::LEFT_CENTER, Align2::RIGHT_CENTER);
     // the numbers of a group are a sentence
@@ -203,7 +209,7 @@ fn row(ui: &mut Ui, columns: &Columns, line: &JudgedLine, is_chosen: bool, heigh
     } else {
         text(columns.name, columns.value, &line.value, right, ink);
         text(columns.value, columns.margin, &line.margin, right, ink);
-        text(columns.margin, columns.day, &line.day.replace('-', "\u{2011}"), right, quiet);
+        text(columns.margin, columns.day, &line.day, right, quiet);
         text(columns.day + 10.0, columns.width, &line.taker, left, quiet);
     }
     response.on_hover_text(label).clicked()

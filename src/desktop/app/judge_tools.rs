@@ -3,6 +3,7 @@
 use crate::desktop::app::state::App;
 use crate::desktop::parts::sky;
 use crate::desktop::parts::theme;
+use crate::desktop::state::component_state::{chosen, naming};
 use crate::desktop::state::eye::Stand;
 use crate::desktop::state::judging::JudgeTool;
 use crate::desktop::state::pick::PickedPoint;
@@ -10,8 +11,7 @@ use crate::desktop::state::unit::Unit;
 use crate::mesh::Component;
 use crate::message::few;
 use crate::site::border_fault;
-use crate::site::file::Names;
-use crate::site::judged_tables::{AreaTable, PlotTable, WindowTable, WrittenNames};
+use crate::site::judged_tables::{AreaTable, PlotTable, WindowTable};
 use crate::view::View;
 use eframe::egui::{self, Align2, Color32, Key, Modifiers, Pos2, Rect, Shape, Stroke, Ui};
 use glam::DVec2;
@@ -112,15 +112,20 @@ impl App {
             return;
         }
         let Some(clicked) = components.iter().find(|component| component.name == click.under.name) else { return };
-        let names = if click.modifiers.command { alike(clicked, components) } else { vec![clicked.name.clone()] };
+        let wanted =
+            if click.modifiers.command { alike(clicked, components) } else { of_name(&clicked.name, components) };
         let windows = &mut self.settings.site.window;
-        if take_away(windows, &names) {
-            self.notice = Some(format!("No window any more: {}", few(names)));
+        let were = taken_away(windows, &wanted, components);
+        let tried = std::iter::once(&clicked.name).chain(&clicked.aliases).map(|name| vec![name.clone()]);
+        let names = naming(&wanted, components, tried);
+        let Some(names) = names else { return };
+        // what is all there already goes
+        if wanted.iter().zip(were).all(|(wanted, was)| !wanted || was) {
+            self.notice = Some(format!("No windows any more: {}", few(names.0)));
             return;
         }
-        let names = one_name(clicked, components, names);
-        self.notice = Some(format!("Windows: {}", few(names.clone())));
-        windows.push(WindowTable { component: Some(WrittenNames(names)), ..WindowTable::default() });
+        self.notice = Some(format!("Windows: {}", few(names.0.clone())));
+        windows.push(WindowTable { component: Some(names), ..WindowTable::default() });
     }
 }
 
@@ -131,43 +136,39 @@ fn free_name(areas: &[AreaTable]) -> String {
     (areas.len() + 1..).map(name).find(is_free).unwrap_or_default()
 }
 
-/// The names of the components of the same kind: those whose name ends after its last slash as this one's does, apart from
-/// numbers. That end is the material in glTF and IFC.
-fn alike(clicked: &Component, components: &[Component]) -> Vec<String> {
+fn of_name(name: &str, components: &[Component]) -> Vec<bool> {
+    components.iter().map(|component| component.name == name).collect()
+}
+
+/// The components of the same kind: those whose name ends after its last slash as this one's does, apart from numbers. That
+/// end is the material in glTF and IFC.
+fn alike(clicked: &Component, components: &[Component]) -> Vec<bool> {
     let kind = |name: &str| {
         let end = name.rsplit('/').next().unwrap_or(name);
         end.trim_end_matches(|letter: char| !letter.is_alphabetic()).to_owned()
     };
     let of_clicked = kind(&clicked.name);
-    let mut names: Vec<String> = Vec::new();
-    for component in components.iter().filter(|component| kind(&component.name) == of_clicked) {
-        if !names.contains(&component.name) {
-            names.push(component.name.clone());
-        }
-    }
-    names
+    components.iter().map(|component| kind(&component.name) == of_clicked).collect()
 }
 
-/// The same components by one of the names that they share, if there is one that chooses no others.
-fn one_name(clicked: &Component, components: &[Component], names: Vec<String>) -> Vec<String> {
-    let chosen = |names: &[String]| Names::Some(names.to_vec()).chosen(components);
-    let wanted = chosen(&names);
-    let is_same = |alias: &&String| names.len() > 1 && chosen(std::slice::from_ref(*alias)) == wanted;
-    clicked.aliases.iter().find(is_same).map_or(names, |alias| vec![alias.clone()])
-}
-
-/// Takes components out of the windows. Returns whether one of them was there.
-fn take_away(windows: &mut Vec<WindowTable>, names: &[String]) -> bool {
-    let mut is_found = false;
-    for window in windows.iter_mut() {
-        if let Some(WrittenNames(written)) = &mut window.component {
-            let count = written.len();
-            written.retain(|name| !names.contains(name));
-            is_found |= written.len() < count;
+/// Takes components out of the windows. Returns of each component whether it was there.
+fn taken_away(windows: &mut Vec<WindowTable>, unwanted: &[bool], components: &[Component]) -> Vec<bool> {
+    let mut were = vec![false; components.len()];
+    windows.retain_mut(|window| {
+        let Some(names) = &window.component else { return true };
+        let mut left = chosen(Some(names), components);
+        let mut is_less = false;
+        for ((left, unwanted), was) in left.iter_mut().zip(unwanted).zip(&mut were) {
+            is_less |= *left && *unwanted;
+            *was |= *left;
+            *left &= !unwanted;
         }
-    }
-    windows.retain(|window| window.component.as_ref().is_none_or(|names| !names.0.is_empty()));
-    is_found
+        if is_less {
+            window.component = naming(&left, components, []);
+        }
+        window.component.is_some()
+    });
+    were
 }
 
 /// Draws the outline that is not closed yet, with the length of its next side.

@@ -14,6 +14,9 @@ use glam::DVec3;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
+/// The most rings around points.
+const MOST_RINGS: usize = 500;
+
 /// Marks a line, and moves the view to the spot that decides it.
 pub(in crate::desktop) fn choose(open: &mut Open, of: LineOf) {
     let Some(judged) = open.judge.shown().cloned() else { return };
@@ -63,8 +66,12 @@ fn look(eye: &mut Eye, project: &Project, spot: &DecidingSpot) {
     let azimuth = flat.map_or(eye.azimuth_rad(), |normal| normal.x.atan2(normal.y));
     let altitudes: &[f64] = if flat.is_some() { &[0.25, 0.5, 0.8, 1.1] } else { &[0.7, 1.0, 1.3, 1.5] };
     let turns = if flat.is_some() { [0.0, PI / 6.0, -PI / 6.0, PI / 3.0] } else { [0.0, PI / 2.0, PI, -PI / 2.0] };
-    let tried = altitudes.iter().flat_map(|altitude| turns.map(|turn| eye.turned(azimuth + turn, *altitude)));
-    let from = spot.point + spot.normal.unwrap_or(DVec3::Z) * 0.05;
+    // without a wall to stand in front of, it is first seen from where one looks already
+    let looking = flat.is_none().then_some(*eye);
+    let turned = altitudes.iter().flat_map(|altitude| turns.map(|turn| eye.turned(azimuth + turn, *altitude)));
+    let tried = looking.into_iter().chain(turned);
+    // above paving, and in front of a reveal's sill
+    let from = spot.point + spot.normal.map_or(DVec3::Z * 0.5, |normal| normal * 0.05);
     let free = tried.clone().find(|tried| is_free(project, from, tried.camera((1, 1)).eye));
     // where nothing is free, it is seen as it would be with nothing in the way
     if let Some(eye_of_spot) = free.or_else(|| tried.clone().next()) {
@@ -105,7 +112,8 @@ pub(in crate::desktop) fn show(ui: &Ui, open: &mut Open, view: &View, rect: Rect
 /// Rings around the points that decide the chosen line.
 fn mark(ui: &Ui, judged: &Arc<JudgedResult>, marked: &[usize], view: &View, rect: Rect) {
     let painter = ui.painter_at(rect);
-    for receiver in marked.iter().filter_map(|at| judged.judgement().receivers.get(*at)) {
+    // rings around everything mark nothing
+    for receiver in marked.iter().take(MOST_RINGS).filter_map(|at| judged.judgement().receivers.get(*at)) {
         for at in receiver.points.iter().filter_map(|point| sky::on_picture(view, rect, *point)) {
             painter.circle_stroke(at, 9.0, Stroke::new(4.0, Color32::WHITE));
             painter.circle_stroke(at, 9.0, Stroke::new(2.5, theme::ACCENT));

@@ -56,14 +56,15 @@ pub(in crate::desktop) fn show(app: &mut App, ui: &mut Ui) {
 }
 
 /// The command's notes on the models, also on those before if two states are compared, on what was found, and on what was
-/// exported last.
+/// exported last; also those on the verdicts that are shown.
 fn notes(app: &App) -> Vec<&Message> {
     let Some(open) = &app.open else { return Vec::new() };
     let mut notes: Vec<&Message> = open.project.site.notes.iter().collect();
     let result = open.result.as_deref();
     let before = result.and_then(StudyResult::change).map_or(&[][..], |change| change.notes_before());
     let of_result = result.map_or(&[][..], |result| &result.notes);
-    for note in before.iter().chain(of_result).chain(&open.export_notes) {
+    let of_verdicts = open.judge.shown().map_or(&[][..], |judged| &judged.answer.notes);
+    for note in before.iter().chain(of_result).chain(of_verdicts).chain(&open.export_notes) {
         if !notes.contains(&note) {
             notes.push(note);
         }

@@ -59,34 +59,38 @@ pub(in crate::desktop) fn set(site: &mut SiteFile, components: &[Component], (in
         let mut wanted = chosen(names.as_ref(), components);
         let of_name = components.iter().zip(&mut wanted).filter(|(other, _)| other.name == component.name);
         of_name.for_each(|(_, wanted)| *wanted = state == of);
-        *names = written(names.take(), &component.name, &wanted, components);
+        let old = names.take().map_or(Vec::new(), |names| names.0);
+        let with = [old.clone(), vec![component.name.clone()]].concat();
+        let without = old.iter().filter(|name| **name != component.name).cloned().collect();
+        *names = naming(&wanted, components, [old, without, with]);
     }
     if *before == BeforeTable::default() {
         site.before = None;
     }
 }
 
-/// Names that choose the wanted components: the same with one name more or less if that does, otherwise the name of each.
-fn written(names: Option<WrittenNames>, name: &str, wanted: &[bool], components: &[Component]) -> Option<WrittenNames> {
+/// Names that choose the wanted components and no others: the first of some lists that does, otherwise the name of each.
+pub(in crate::desktop) fn naming(
+    wanted: &[bool],
+    components: &[Component],
+    tried: impl IntoIterator<Item = Vec<String>>,
+) -> Option<WrittenNames> {
     if !wanted.contains(&true) {
         return None;
     }
-    let old = names.map_or(Vec::new(), |names| names.0);
-    let with = [old.clone(), vec![name.to_owned()]].concat();
-    let without: Vec<String> = old.iter().filter(|other| *other != name).cloned().collect();
     let mut each: Vec<String> = Vec::new();
     for (component, _) in components.iter().zip(wanted).filter(|(_, wanted)| **wanted) {
         if !each.contains(&component.name) {
             each.push(component.name.clone());
         }
     }
-    let does =
-        |names: &Vec<String>| !names.is_empty() && chosen(Some(&WrittenNames(names.clone())), components) == wanted;
-    Some(WrittenNames([old, without, with].into_iter().find(does).unwrap_or(each)))
+    let does = |names: &WrittenNames| !names.0.is_empty() && chosen(Some(names), components) == wanted;
+    let found = tried.into_iter().map(WrittenNames).find(does);
+    Some(found.unwrap_or(WrittenNames(each)))
 }
 
 /// For each component, whether names choose it; no names choose none.
-fn chosen(names: Option<&WrittenNames>, components: &[Component]) -> Vec<bool> {
+pub(in crate::desktop) fn chosen(names: Option<&WrittenNames>, components: &[Component]) -> Vec<bool> {
     match names {
         Some(names) => Names::Some(names.0.clone()).chosen(components),
         None => vec![false; components.len()],
