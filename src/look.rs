@@ -128,6 +128,15 @@ pub struct Look {
     pub layer: f64,
     /// The greatest opacity of all layers together, so that shadows stay visible below them.
     pub most_layers: f64,
+
+    /// What keeps a rule. The four colours of verdicts differ in lightness, too.
+    pub passing: [u8; 3],
+    /// What is too close to a limit to say.
+    pub too_close: [u8; 3],
+    /// What breaks a rule.
+    pub failing: [u8; 3],
+    /// What a rule only reports.
+    pub only_reported: [u8; 3],
 }
 
 /// The program's look: like a photograph of a plain model, warm in the sun and cool in the shade. The plan has the same
@@ -193,4 +202,9 @@ pub const LOOK: Look = Look {
     silhouette: [10, 10, 12],
     layer: 0.27,
     most_layers: 0.62,
+
+    passing: [58, 150, 140],
+    too_close: [238, 184, 72],
+    failing: [176, 44, 36],
+    only_reported: [118, 130, 152],
 };

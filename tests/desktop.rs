@@ -6,6 +6,7 @@ mod exporting;
 mod facades;
 mod fitting;
 mod hiding;
+mod judging;
 mod keeping;
 mod killed;
 mod lost;

@@ -20,6 +20,23 @@ pub struct JudgeRequest<'a> {
     pub table: Option<&'a PathBuf>,
 }
 
+/// The names of the files of [`write_judgement`].
+pub fn judgement_names() -> [PathBuf; 2] {
+    ["judgement.json", "judgement.csv"].map(PathBuf::from)
+}
+
+/// Writes a verdict that is found already: everything as JSON, and the table as CSV.
+///
+/// # Errors
+/// [`DeliverError`]. Files that cannot be written.
+pub fn write_judgement(site: &JudgedSite, answer: &JudgeAnswer, sink: Sink<'_>) -> Result<WrittenFiles, DeliverError> {
+    let names = judgement_names();
+    let open = sink.open(&names, None)?;
+    let json = encode::json(&answer.judgement, site, (&answer.notes, site.words))?;
+    let texts = [json, encode::csv(&answer.judgement)];
+    Ok(open.write(names.into_iter().zip(texts.map(String::into_bytes)).collect())?)
+}
+
 /// The verdict.
 #[derive(Clone, Debug)]
 pub struct JudgeAnswer {

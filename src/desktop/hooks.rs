@@ -17,7 +17,9 @@ impl App {
         self.loading.is_none()
             && self.writing.is_none()
             && !self.stage.is_busy()
-            && open.is_none_or(|open| open.adding.is_none() && open.probing.is_none() && open.viewer.is_settled())
+            && open.is_none_or(|open| {
+                open.adding.is_none() && open.probing.is_none() && open.viewer.is_settled() && open.judge.is_settled()
+            })
     }
 
     /// The same window, with another reader of models.

@@ -75,6 +75,42 @@ pub fn rule_for_site(name: &str, folder: &Path) -> Result<Rule, RuleError> {
     Rule::parse(name, built_in_text(name)?)
 }
 
+/// The most files of a folder that are looked at as rules.
+const MOST_FILES: usize = 1000;
+
+/// A rule that a site can be judged by: the name that asks for it, and the rule, or why it cannot be read.
+pub type KnownRule = (String, Result<Rule, RuleError>);
+
+/// The rules for a site in a folder: those of its files that have a table `[rule]`, by name, then the built-in ones
+/// that have none of these names.
+pub fn rules_for_site(folder: &Path) -> Vec<KnownRule> {
+    let mut known: Vec<KnownRule> = names_in(folder)
+        .into_iter()
+        .filter(|name| says_rule(&folder.join(format!("{name}.toml"))))
+        .map(|name| (name.clone(), rule_for_site(&name, folder)))
+        .collect();
+    known.sort_by(|(one, _), (other, _)| one.cmp(other));
+    for (id, text) in BUILT_IN {
+        if !known.iter().any(|(name, _)| name == id) {
+            known.push(((*id).to_owned(), Rule::parse(id, text)));
+        }
+    }
+    known
+}
+
+/// The names of a folder's files that end in `.toml`, without that ending.
+fn names_in(folder: &Path) -> Vec<String> {
+    // a folder that cannot be read has no rules
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let names = entries.filter_map(|entry| entry.file_name().to_str()?.strip_suffix(".toml").map(str::to_owned));
+    names.filter(|name| !name.is_empty()).take(MOST_FILES).collect()
+}
+
+/// Whether a file says that it is a rule. Site files, which lie in the same folders, do not.
+fn says_rule(path: &Path) -> bool {
+    text_of(path).is_ok_and(|text| text.lines().any(|line| line.trim().starts_with("[rule]")))
+}
+
 fn text_of(path: &Path) -> Result<String, RuleError> {
     let wrong = |what: String| RuleError::File { path: path.display().to_string(), what };
     let about = fs::metadata(path).map_err(|error| wrong(format!("cannot be read: {error}")))?;

@@ -41,7 +41,7 @@ pub use judge_area::{AreaLight, PartMet, ShadowLoad};
 pub use judge_group::{DwellingRuling, DwellingSun, RoomRuling};
 pub use judge_time::DayLight;
 pub use keys::RULE_KEYS;
-pub use library::{BUILT_IN, built_in_rules, built_in_text, rule_for_site};
+pub use library::{BUILT_IN, KnownRule, built_in_rules, built_in_text, rule_for_site, rules_for_site};
 pub use options::{OptionType, OptionValue, RuleOption, duration_text};
 pub use receiver::{Band, CornerRule, DeemedBoundary, Grouping, HeightOver, OpenSpaces, RuleReceiver, WindowPoint};
 pub use resolved::{CompareWith, ResolvedRule, RuleDay};

@@ -20,7 +20,8 @@ mod ground;
 mod in_memory;
 mod inputs;
 mod judged;
-mod judged_tables;
+#[doc(hidden)]
+pub mod judged_tables;
 mod key_notes;
 mod key_table;
 mod keys;
@@ -69,6 +70,8 @@ pub use judged::{
     AreaSurface, JudgedArea, JudgedFacade, JudgedPlot, JudgedSite, JudgedState, JudgedWindow, PlotSide, load_judged,
     study_days,
 };
+#[cfg(feature = "desktop")]
+pub(crate) use judged::{border_fault, judged_with_models};
 #[doc(hidden)]
 pub use key_table::{SITE_KEYS, SITE_TABLES, SiteKey, ValueType};
 pub use likeness::{Likeness, Mend};

@@ -93,7 +93,23 @@ fn merge(into: &mut dyn TableLike, before: &Table, after: &Table) -> Result<(), 
     Ok(())
 }
 
-/// The same for the tables of a list, `[[model]]` and `[[probe]]`, one after the other.
+/// The indices of the tables that a shorter list lacks: those that differ from the next one that is left, from the front
+/// on. So a table keeps its comments if one before it is removed.
+fn removed(before: &[&Value], after: &[Value]) -> Vec<usize> {
+    let mut surplus = before.len().saturating_sub(after.len());
+    let (mut left, mut removed) = (after.iter().peekable(), Vec::new());
+    for (index, table) in before.iter().enumerate() {
+        if surplus > 0 && left.peek() != Some(table) {
+            removed.push(index);
+            surplus -= 1;
+        } else {
+            left.next();
+        }
+    }
+    removed
+}
+
+/// The same for the tables of a list, such as `[[model]]` and `[[area]]`, one after the other.
 fn merge_list(item: &mut Item, before: &[Value], after: &[Value]) -> Result<(), String> {
     // an inline list is rewritten as tables, which mean the same
     if !item.is_array_of_tables() {
@@ -101,12 +117,16 @@ fn merge_list(item: &mut Item, before: &[Value], after: &[Value]) -> Result<(), 
         *item = Item::ArrayOfTables(list);
     }
     let Some(list) = item.as_array_of_tables_mut() else { return Err("not a list of tables".to_owned()) };
-    while list.len() > after.len() {
-        list.remove(list.len() - 1);
+    let mut before: Vec<&Value> = before.iter().collect();
+    for index in removed(&before, after).into_iter().rev() {
+        before.remove(index);
+        if index < list.len() {
+            list.remove(index);
+        }
     }
     let none = Table::new();
     for (index, after) in after.iter().filter_map(Value::as_table).enumerate() {
-        let mut old = before.get(index).and_then(Value::as_table).unwrap_or(&none);
+        let mut old = before.get(index).and_then(|table| table.as_table()).unwrap_or(&none);
         if index >= list.len() {
             list.push(toml_edit::Table::new());
             old = &none;

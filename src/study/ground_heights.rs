@@ -8,7 +8,7 @@ use crate::sunlight::JudgedPoint;
 use glam::DVec3;
 
 /// The ground, as points are judged above it.
-pub(super) struct GroundHeights {
+pub(crate) struct GroundHeights {
     level: f64,
     terrain: Option<SeenTerrain>,
 }
@@ -23,7 +23,7 @@ struct SeenTerrain {
 
 impl GroundHeights {
     /// For points of the world near these.
-    pub(super) fn of(mesh: &Mesh, ground: &Ground, points: &[DVec3]) -> GroundHeights {
+    pub(crate) fn of(mesh: &Mesh, ground: &Ground, points: &[DVec3]) -> GroundHeights {
         let is_terrain: Vec<bool> = match ground.kind {
             GroundKind::Plane => Vec::new(),
             GroundKind::Terrain => mesh.components.iter().map(|component| component.is_terrain).collect(),
@@ -49,7 +49,7 @@ impl GroundHeights {
     }
 
     /// The ground's height below a point: the terrain's, or beside it the plane's.
-    pub(super) fn height(&self, point: DVec3) -> f64 {
+    pub(crate) fn height(&self, point: DVec3) -> f64 {
         self.terrain_at(point).unwrap_or(self.level)
     }
 

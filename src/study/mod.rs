@@ -60,6 +60,9 @@ pub(crate) use daylight::day_and_night;
 pub use error::StudyError;
 pub use event::{Event, OnEvent};
 pub(crate) use event::{gather, note_models, note_site, tell};
+#[cfg(feature = "desktop")]
+pub(crate) use ground_heights::GroundHeights;
+
 #[doc(hidden)]
 pub use frames::{Frame, FrameView, frames};
 #[doc(hidden)]

@@ -170,6 +170,18 @@ absent = [\"tower\"]
     let mut later = read.clone();
     later.study.date = Some(gnomon::site::file::Text("2027-01-01".to_owned()));
     assert_eq!(later.to_toml_in(&text).unwrap(), text.replace("date = 2026-03-21", "date = \"2027-01-01\""));
+    // a table that goes takes its own comments, and leaves those of the others
+    let mut two = text.replace(
+        "[[window]]",
+        "# the court\n[[area]]\nname = \"Court\"\npolygon = [[5, 5], [6, 5], [6, 6]] # small\n\n[[window]]",
+    );
+    let mut fewer = SiteFile::parse("site.toml", &two).unwrap();
+    fewer.area.remove(0);
+    let written = fewer.to_toml_in(&two).unwrap();
+    assert_eq!(SiteFile::parse("site.toml", &written).unwrap(), fewer, "{written}");
+    two.truncate(two.find("[[window]]").unwrap());
+    assert!(written.contains(&two[two.find("# the court").unwrap()..]), "{written}");
+    assert!(!written.contains("no. 12") && !written.contains("the gardens"), "{written}");
     // written as a new file it means the same
     assert_eq!(SiteFile::parse("site.toml", &read.to_toml().unwrap()).unwrap(), read);
     assert_eq!(judged(tables).areas.len(), 1);

@@ -1,6 +1,6 @@
 //! Where rules are found: beside the site, or built in.
 
-use gnomon::rules::{RuleError, built_in_text, rule_for_site};
+use gnomon::rules::{BUILT_IN, RuleError, built_in_text, rule_for_site, rules_for_site};
 use std::fs;
 
 #[test]
@@ -17,6 +17,29 @@ fn a_rule_beside_the_site_goes_first() {
     for name in ["mine", "mine.toml"] {
         assert_eq!(found(name).expect("beside").text, own, "{name}");
     }
+}
+
+/// The list has what can be asked for: files that say a rule, also broken ones, and what is built in.
+#[test]
+fn rules_of_a_site_are_listed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let own = built_in_text("nl-tno-light").expect("built in").replace("TNO, lichte norm", "our town's");
+    for (name, text) in [
+        ("nl-tno-light.toml", own.as_str()),
+        ("broken.toml", "[rule]\nid = 1\n"),
+        ("site.toml", "[place]\nlatitude = 1.0\n"),
+        ("notes.txt", "[rule]\n"),
+    ] {
+        fs::write(folder.path().join(name), text).expect("written");
+    }
+    let known = rules_for_site(folder.path());
+    assert_eq!(known.len(), BUILT_IN.len() + 1, "the built-in ones, of which one is replaced, and the broken one");
+    let (broken, light) = (&known[0], &known[1]);
+    assert!(broken.0 == "broken" && broken.1.is_err(), "{broken:?}");
+    assert_eq!(light.0, "nl-tno-light");
+    assert_eq!(light.1.as_ref().expect("a rule").source.edition, "our town's");
+    assert!(known[2..].iter().all(|(_, rule)| rule.is_ok()));
+    assert_eq!(rules_for_site(&folder.path().join("nowhere")).len(), BUILT_IN.len());
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! Cards over the picture: the legend of hours, and the times when a point lies in the sun.
 
+use crate::desktop::app::judge_card::{self, CardAction};
+use crate::desktop::app::judge_view;
 use crate::desktop::app::state::Open;
 use crate::desktop::parts::components;
 use crate::desktop::parts::sky;
@@ -22,7 +24,7 @@ const WITHIN: f32 = 10.0;
 
 /// Shows the cards over a picture: side by side, or in one column if there is no room for two.
 pub(in crate::desktop) fn show(ui: &Ui, open: &mut Open, settings: &mut WindowSettings, rect: Rect, unit: Unit) {
-    let result = open.result.clone().filter(|_| open.shows_hours);
+    let result = open.result.clone().filter(|_| open.shows_hours && open.judge.shown().is_none());
     let is_probed = open.probing.is_some() || open.sunlight.is_some();
     let is_wide = rect.width() > 2.0 * WIDTH;
     if let Some(result) = result.as_ref().filter(|_| is_wide || !is_probed) {
@@ -33,6 +35,17 @@ pub(in crate::desktop) fn show(ui: &Ui, open: &mut Open, settings: &mut WindowSe
         let below = if rect.height() > 400.0 { 88.0 } else { AROUND };
         let result = result.as_ref().filter(|_| !is_wide);
         card(ui, "probe", rect, Align2::RIGHT_TOP, vec2(-AROUND, below), |ui| probe(open, settings, unit, result, ui));
+    } else if open.judge.chosen().is_some() {
+        let buttons = ui.spacing().interact_size.y + ui.spacing().item_spacing.y;
+        let mut action = None;
+        card(ui, "verdict", rect, Align2::LEFT_TOP, Vec2::splat(AROUND), |ui| {
+            action = judge_card::show(ui, open, buttons);
+        });
+        match action {
+            Some(CardAction::Close) => open.judge.table.chosen = None,
+            Some(CardAction::Choose(line)) => judge_view::choose(open, line),
+            None => {}
+        }
     }
 }
 

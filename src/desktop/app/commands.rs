@@ -2,9 +2,11 @@
 
 use crate::desktop::app::state::App;
 use crate::desktop::parts::path_dialog::{PathDialog, Purpose};
+use crate::desktop::results::judged::JudgedResult;
 use crate::desktop::state::project::{Project, name_of};
 use crate::desktop::state::saving::PendingAction;
 use crate::desktop::work::export;
+use crate::desktop::work::judging;
 use crate::desktop::work::loading::{LoadJob, LoadRequest};
 use crate::desktop::work::samples;
 use eframe::egui;
@@ -20,6 +22,7 @@ impl App {
             let files = match purpose {
                 Purpose::Hours => result.map_or(Vec::new(), |result| result.names()),
                 Purpose::Lines(lines) => lines.names().map(PathBuf::from).to_vec(),
+                Purpose::Verdicts => JudgedResult::names(),
                 _ => Vec::new(),
             };
             self.asking = Some(PathDialog::start(purpose, proposed, files, context.clone()));
@@ -100,6 +103,11 @@ impl App {
             Purpose::Animation => {
                 let eye = open.viewer.eye;
                 self.writing = Some(export::animation(&open.project, &self.settings, eye, path, context.clone()));
+            }
+            Purpose::Verdicts => {
+                if let Some(judged) = open.judge.judged.clone() {
+                    self.writing = Some(judging::written(&open.project, judged, path, context.clone()));
+                }
             }
             Purpose::Hours => {
                 if let Some(result) = open.result.clone() {

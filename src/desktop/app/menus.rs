@@ -20,6 +20,8 @@ const SAVE_AS: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND.plus(
 const RELOAD: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::R);
 const RELOAD_TOO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::NONE, Key::F5);
 const EXPORT: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::E);
+/// Judges the site.
+pub(in crate::desktop) const JUDGE: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::J);
 const UNDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::Z);
 const REDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z);
 
@@ -71,6 +73,7 @@ impl App {
         if self.is_questioned() {
             return;
         }
+        self.tool_keys(context);
         let pressed = |shortcut| context.input_mut(|input| input.consume_shortcut(&shortcut));
         let (redo, saves_as) = (pressed(REDO), pressed(SAVE_AS));
         let (undo, opens, saves, exports) = (pressed(UNDO), pressed(OPEN), pressed(SAVE), pressed(EXPORT));
@@ -87,6 +90,9 @@ impl App {
         }
         if opens {
             self.ask(Purpose::Open, context);
+        }
+        if pressed(JUDGE) {
+            self.judge(context);
         }
         if saves && self.open.is_some() && self.asking.is_none() {
             // typed text is taken over first, in this frame
@@ -184,14 +190,21 @@ impl App {
             self.ask(Purpose::Drawing, &context);
         }
         let result = self.open.as_ref().and_then(|open| open.result.as_ref());
+        let has_verdicts = self.open.as_ref().is_some_and(|open| open.judge.judged.is_some());
         let has_lines = result.is_some_and(|result| matches!(result.found, Findings::Shadow(_)));
         for (name, purpose, is_there) in [
             ("Export the hours…", Purpose::Hours, result.is_some()),
             ("Export the iso-hour lines…", Purpose::Lines(Lines::Hours), has_lines),
             ("Export the outlines…", Purpose::Lines(Lines::Outlines), has_lines),
+            ("Export the verdicts…", Purpose::Verdicts, has_verdicts),
         ] {
             let response = ui.add_enabled(is_there, egui::Button::new(name));
-            if response.on_disabled_hover_text("Find the hours of shadow first").clicked() {
+            let first = if purpose == Purpose::Verdicts {
+                "Judge it by a rule first"
+            } else {
+                "Find the hours of shadow first"
+            };
+            if response.on_disabled_hover_text(first).clicked() {
                 self.ask(purpose, &context);
             }
         }
@@ -213,6 +226,10 @@ impl App {
         if ui.add_enabled(redo, entry(&context, "Redo", &REDO)).clicked() {
             let settings = self.history.redo();
             self.set(settings);
+        }
+        ui.separator();
+        if ui.add_enabled(self.open.is_some(), entry(&context, "Judge by the rule", &JUDGE)).clicked() {
+            self.judge(&context);
         }
     }
 

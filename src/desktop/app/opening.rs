@@ -1,5 +1,6 @@
 //! Opens a site, and reads the open one again when its settings have changed.
 
+use crate::desktop::app::judge_desk::JudgeDesk;
 use crate::desktop::app::state::{App, Open};
 use crate::desktop::parts::fields::TypedText;
 use crate::desktop::parts::view::Viewer;
@@ -75,6 +76,7 @@ impl App {
             sky: None,
             export_notes: Vec::new(),
             clicked: None,
+            judge: JudgeDesk::default(),
             project,
         });
         self.note_saved();
@@ -135,6 +137,7 @@ impl Open {
         (self.project, self.number) = (project, number);
         self.export_notes.clear();
         self.result = self.result.take().filter(|result| result.lies_on(&self.project.site));
+        self.judge.judged = self.judge.judged.take().filter(|judged| judged.lies_on(&self.project.site));
         // after a change of scale the eye could be inside the model, or far away
         if !(0.5..=2.0).contains(&grown) {
             self.viewer.fit_all(&self.project);

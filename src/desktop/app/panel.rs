@@ -2,6 +2,9 @@
 
 use crate::choice::{Method, TABLE};
 use crate::desktop::app::cards;
+use crate::desktop::app::judge_desk::SECTION;
+use crate::desktop::app::judge_section;
+use crate::desktop::app::panel_row::row;
 use crate::desktop::app::state::App;
 use crate::desktop::app::study;
 use crate::desktop::parts::components;
@@ -18,7 +21,7 @@ use crate::message::Message;
 use crate::site::file::{ModelTable, PlaceTable, Text};
 use crate::site::typed::{Axis, TypedError, clock, date, resolution, step};
 use crate::site::{Ground, Mend, ModelReference};
-use eframe::egui::{self, Ui, vec2};
+use eframe::egui::{self, Ui};
 use std::ops::RangeInclusive;
 
 /// The range of metres per unit of a model.
@@ -40,6 +43,7 @@ pub(in crate::desktop) fn show(app: &mut App, ui: &mut Ui) {
         if app.open.as_ref().and_then(|open| open.result.as_ref()).is_some_and(|result| result.change().is_some()) {
             section(ui, "Sun lost and gained", true, |ui| study::areas(app, ui));
         }
+        judge(app, ui);
         section(ui, "Components", false, |ui| {
             if let Some(open) = &app.open {
                 ui.checkbox(&mut app.settings.shown.tinted, "In their own colours");
@@ -52,14 +56,15 @@ pub(in crate::desktop) fn show(app: &mut App, ui: &mut Ui) {
 }
 
 /// The command's notes on the models, also on those before if two states are compared, on what was found, and on what was
-/// exported last.
+/// exported last; also those on the verdicts that are shown.
 fn notes(app: &App) -> Vec<&Message> {
     let Some(open) = &app.open else { return Vec::new() };
     let mut notes: Vec<&Message> = open.project.site.notes.iter().collect();
     let result = open.result.as_deref();
     let before = result.and_then(StudyResult::change).map_or(&[][..], |change| change.notes_before());
     let of_result = result.map_or(&[][..], |result| &result.notes);
-    for note in before.iter().chain(of_result).chain(&open.export_notes) {
+    let of_verdicts = open.judge.shown().map_or(&[][..], |judged| &judged.answer.notes);
+    for note in before.iter().chain(of_result).chain(of_verdicts).chain(&open.export_notes) {
         if !notes.contains(&note) {
             notes.push(note);
         }
@@ -100,23 +105,23 @@ fn section_of_notes(app: &mut App, ui: &mut Ui) {
     });
 }
 
-fn section(ui: &mut Ui, name: &str, open: bool, content: impl FnOnce(&mut Ui)) {
-    let title = egui::RichText::new(name).font(theme::bold(13.5)).color(theme::accent(ui.visuals()));
-    egui::CollapsingHeader::new(title).id_salt(name).default_open(open).show_unindented(ui, |ui| {
-        content(ui);
-        ui.add_space(8.0);
-    });
+/// The section of rules, which opens by itself where something has to be chosen.
+fn judge(app: &mut App, ui: &mut Ui) {
+    let opens = app.open.as_mut().is_some_and(|open| std::mem::take(&mut open.judge.opens));
+    header(ui, SECTION, false, opens, |ui| judge_section::show(app, ui));
 }
 
-/// A label and the fields beside it, aligned with all others.
-fn row(ui: &mut Ui, name: &str, field: impl FnOnce(&mut Ui, egui::Id)) {
-    ui.horizontal(|ui| {
-        let size = vec2(78.0, ui.spacing().interact_size.y);
-        let label = ui.allocate_ui_with_layout(size, egui::Layout::left_to_right(egui::Align::Center), |ui| {
-            ui.set_min_size(size);
-            ui.weak(name).id
-        });
-        field(ui, label.inner);
+fn section(ui: &mut Ui, name: &str, open: bool, content: impl FnOnce(&mut Ui)) {
+    header(ui, name, open, false, content);
+}
+
+/// A section, which may open now.
+fn header(ui: &mut Ui, name: &str, open: bool, opens: bool, content: impl FnOnce(&mut Ui)) {
+    let title = egui::RichText::new(name).font(theme::bold(13.5)).color(theme::accent(ui.visuals()));
+    let header = egui::CollapsingHeader::new(title).id_salt(name).default_open(open).open(opens.then_some(true));
+    header.show_unindented(ui, |ui| {
+        content(ui);
+        ui.add_space(8.0);
     });
 }
 

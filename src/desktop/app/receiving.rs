@@ -23,6 +23,8 @@ impl App {
         }
         self.receive_study();
         self.receive_sunlight();
+        self.receive_judged();
+        self.sketch(context);
     }
 
     fn receive_note(&mut self) {
@@ -32,6 +34,7 @@ impl App {
             self.writing.as_ref().and_then(Work::note),
             open.and_then(|open| open.adding.as_ref()).and_then(Work::note),
             open.and_then(|open| open.probing.as_ref()).and_then(Work::note),
+            open.and_then(|open| open.judge.judging.as_ref()).and_then(Work::note),
         ];
         if let Some(note) = notes.into_iter().flatten().next() {
             self.notice = Some(note);

@@ -99,7 +99,7 @@ impl App {
                 written.text = text;
                 // states that undo restores must also be read from the new folder
                 let from = open.project.written.folder.clone();
-                self.history.change_all(|site| export::move_models(site, &from, &written.folder));
+                self.history.change_all(|site| export::move_files(site, &from, &written.folder));
                 self.notice = Some(format!("Written: {}", path.display()));
                 open.project.path = Some(path);
                 let is_read = open.project.written.site == self.settings.site;
@@ -113,7 +113,7 @@ impl App {
                 // an interrupted load, or a change in this frame, must be read from the settings
                 if loading.is_some() || !is_read {
                     written.site.clone_from(&open.project.written.site);
-                    export::move_models(&mut written.site, &from, &written.folder);
+                    export::move_files(&mut written.site, &from, &written.folder);
                 }
                 open.project.written = written;
                 self.history.note(&self.settings);

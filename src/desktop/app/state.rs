@@ -1,6 +1,7 @@
 //! The window's state: what is open, the settings, and the work in progress.
 
 use crate::desktop::app::device::devices;
+use crate::desktop::app::judge_desk::JudgeDesk;
 use crate::desktop::parts::fields::TypedText;
 use crate::desktop::parts::path_dialog::PathDialog;
 use crate::desktop::parts::point_sky::PointSky;
@@ -67,6 +68,8 @@ pub(in crate::desktop) struct Open {
     pub(in crate::desktop) export_notes: Vec<Message>,
     /// The point that was clicked.
     pub(in crate::desktop) clicked: Option<PickedPoint>,
+    /// What belongs to judging it by a rule.
+    pub(in crate::desktop) judge: JudgeDesk,
 }
 
 /// The window.

@@ -1,6 +1,9 @@
 //! The window's frame: menus above, panel beside, time below, the picture in the middle.
 
 use crate::desktop::app::cards;
+use crate::desktop::app::judge_table;
+use crate::desktop::app::judge_tools::{self, ToolClick};
+use crate::desktop::app::judge_view;
 use crate::desktop::app::panel;
 use crate::desktop::app::state::{App, Open};
 use crate::desktop::parts::path_dialog::{DialogAnswer, Purpose};
@@ -50,6 +53,7 @@ impl eframe::App for App {
                 panel::show(self, &mut ui.new_child(egui::UiBuilder::new().max_rect(rect)));
                 ui.advance_cursor_after_rect(rect);
             });
+            judge_table::panel(self, ui, on_ground);
             egui::CentralPanel::no_frame().show(ui, |ui| self.view(ui));
         }
         self.ask_place(&context);
@@ -77,20 +81,34 @@ impl App {
         let context = ui.ctx().clone();
         let Some(open) = &mut self.open else { return };
         open.clock.tick(&context);
+        let shows_verdicts = open.judge.shown().is_some();
         let Open { project, number, clock, viewer, result, shows_hours, .. } = open;
         let request = ViewRequest {
             project,
             number: *number,
             choice: self.settings.shown,
-            result: result.as_ref().filter(|_| *shows_hours),
+            result: result.as_ref().filter(|_| *shows_hours && !shows_verdicts),
             sun_path: !self.kept.no_sun_path,
             feet: self.kept.feet,
         };
         let rect = ui.available_rect_before_wrap();
-        let clicked = viewer.show(ui, &self.stage, software, &request, clock);
+        let mut clicked = viewer.show(ui, &self.stage, software, &request, clock);
         if let Some(view) = viewer.shown().map(|shown| shown.wish.view) {
+            judge_view::show(ui, open, &view, rect);
+            let level = open.project.site.ground.level;
+            judge_tools::draft(ui, open.judge.tool.as_ref(), &view, rect, (level, Unit::of(self.kept.feet)));
             cards::mark(ui, open, &view, rect);
+            if let Some(under) = clicked.clone()
+                && let Some(at) = ui.input(|input| input.pointer.interact_pos())
+            {
+                let is_double = ui.input(|input| input.pointer.button_double_clicked(egui::PointerButton::Primary));
+                let modifiers = ui.input(|input| input.modifiers);
+                if self.tool_click(&ToolClick { under, at, is_double, modifiers }, &view, rect) {
+                    clicked = None;
+                }
+            }
         }
+        let Some(open) = &mut self.open else { return };
         cards::show(ui, open, &mut self.settings, rect, Unit::of(self.kept.feet));
         if let Some(under) = clicked {
             open.clicked = Some(under.clone());

@@ -1,6 +1,7 @@
 //! The list of components: their colours and roles.
 
 use crate::desktop::parts::theme;
+use crate::desktop::state::component_state::{self, ComponentState};
 use crate::desktop::state::project::Project;
 use crate::desktop::state::settings::{Hidden, WindowSettings};
 use crate::export::figure::without_middle;
@@ -21,14 +22,21 @@ const COLUMN: f32 = 52.0;
 pub(in crate::desktop) fn list(ui: &mut egui::Ui, project: &Project, settings: &mut WindowSettings) {
     let site = &project.site;
     heading(ui, site.mesh.components.len());
+    let states = component_state::states(&settings.site, &site.mesh.components);
+    let stands = |index: usize| states[index] != ComponentState::Demolished;
     // includes switches whose settings are not read yet
-    let roles = (settings.site.model != project.written.site.model)
-        .then(|| [roles(project, settings, true), roles(project, settings, false)]);
+    let (now, read) = (&settings.site, &project.written.site);
+    let roles = (now.model != read.model || now.before != read.before).then(|| {
+        let mut roles = [roles(project, settings, true), roles(project, settings, false)];
+        roles.iter_mut().flat_map(|role| role.iter_mut().enumerate()).for_each(|(index, role)| *role &= stands(index));
+        roles
+    });
     let [casts, receives] = match &roles {
         Some([casts, receives]) => [casts, receives],
         None => [&site.casts, &site.receives],
     };
-    let mut changes = Vec::new();
+    let is_other_file = settings.site.before.as_ref().is_some_and(|before| before.site.is_some());
+    let (mut changes, mut state) = (Vec::new(), None);
     let height = ui.spacing().interact_size.y;
     let area = egui::ScrollArea::vertical()
         .min_scrolled_height(160.0)
@@ -38,15 +46,22 @@ pub(in crate::desktop) fn list(ui: &mut egui::Ui, project: &Project, settings: &
     area.show_rows(ui, height, site.mesh.components.len(), |ui, rows| {
         for index in rows {
             let name = &site.mesh.components[index].name;
-            let states = [casts[index], receives[index], receives[index] && !settings.hidden.contains(name)];
-            let switched = component(ui, (name, project.colours[index]), states, receives[index]);
-            changes.extend(switched.map(|(what, on)| (index, what, on)));
+            let switches = [casts[index], receives[index], receives[index] && !settings.hidden.contains(name)];
+            let listed = ListedComponent { name, colour: project.colours[index], state: states[index], is_other_file };
+            match component(ui, &listed, switches) {
+                Some(ComponentChange::Switch(what, on)) => changes.push((index, what, on)),
+                Some(ComponentChange::State(chosen)) => state = Some((index, chosen)),
+                None => {}
+            }
         }
     });
+    if let Some(change) = state {
+        component_state::set(&mut settings.site, &site.mesh.components, change);
+    }
     for (index, what, on) in changes {
         match what {
-            "casts" => switch(project, settings, (index, true, on), casts),
-            "receives" => switch(project, settings, (index, false, on), receives),
+            "casts" => switch(project, settings, (index, true, on)),
+            "receives" => switch(project, settings, (index, false, on)),
             _ => hide(settings, &site.mesh.components[index].name, !on),
         }
     }
@@ -66,35 +81,85 @@ fn heading(ui: &mut egui::Ui, count: usize) {
     });
 }
 
-/// A component's row. Returns the switch that was used, and its new value.
-fn component(
-    ui: &mut egui::Ui,
-    (name, [r, g, b]): (&str, [u8; 3]),
-    states: [bool; 3],
-    receives: bool,
-) -> Option<(&'static str, bool)> {
-    let mut switched = None;
+/// A component, as its row shows it.
+struct ListedComponent<'a> {
+    name: &'a str,
+    colour: [u8; 3],
+    state: ComponentState,
+    /// Whether the state before is another file, which says what stands there.
+    is_other_file: bool,
+}
+
+/// What was changed in a row.
+enum ComponentChange {
+    /// A switch, by its column's name.
+    Switch(&'static str, bool),
+    /// In which states it stands.
+    State(ComponentState),
+}
+
+/// A component's row. Returns what was changed.
+fn component(ui: &mut egui::Ui, of: &ListedComponent<'_>, switches: [bool; 3]) -> Option<ComponentChange> {
+    let mut changed = None;
+    let is_gone = of.state == ComponentState::Demolished;
     row(ui, |ui, column| {
         let Some(column) = column else {
-            let (rect, _) = ui.allocate_exact_size(egui::vec2(12.0, 12.0), Sense::hover());
-            ui.painter().rect_filled(rect, 3.0, Color32::from_rgb(r, g, b));
-            // similar names usually differ at the end
-            let fits = |text: &str| theme::width_of(ui, text) <= ui.available_width();
-            let cut = without_middle(name, fits);
-            ui.label(cut).on_hover_text(name);
+            let chosen = named(ui, of);
+            changed = chosen.map(ComponentChange::State).or(changed.take());
             return;
         };
-        let (mut on, what) = (states[column], SWITCHES[column].0);
-        let can = what != "visible" || receives;
+        let (mut on, what) = (switches[column], SWITCHES[column].0);
+        let can = !is_gone && (what != "visible" || switches[1]);
         let response = ui.add_enabled(can, egui::Checkbox::without_text(&mut on));
-        let label = format!("{name} {what}");
+        let label = format!("{} {what}", of.name);
         response.widget_info(|| egui::WidgetInfo::selected(egui::Role::CheckBox, can, on, label.clone()));
-        response.on_disabled_hover_text("It does not receive, and is looked through");
-        if on != states[column] {
-            switched = Some((what, on));
+        response.on_disabled_hover_text(if is_gone {
+            "It is demolished: it stands in the state before alone"
+        } else {
+            "It does not receive, and is looked through"
+        });
+        if on != switches[column] {
+            changed = Some(ComponentChange::Switch(what, on));
         }
     });
-    switched
+    changed
+}
+
+/// The colour and the name, which opens a list of states. Returns the one that was chosen.
+fn named(ui: &mut egui::Ui, of: &ListedComponent<'_>) -> Option<ComponentState> {
+    let (rect, _) = ui.allocate_exact_size(egui::vec2(12.0, 12.0), Sense::hover());
+    let [r, g, b] = of.colour;
+    let colour = Color32::from_rgb(r, g, b);
+    match of.state {
+        ComponentState::Demolished => {
+            ui.painter().rect_stroke(rect, 3.0, egui::Stroke::new(1.5, colour), egui::StrokeKind::Inside);
+        }
+        ComponentState::Existing | ComponentState::Proposed => {
+            ui.painter().rect_filled(rect, 3.0, colour);
+        }
+    }
+    // similar names usually differ at the end
+    let whole = format!("{}{}", of.name, of.state.mark());
+    let fits = |text: &str| theme::width_of(ui, text) <= ui.available_width();
+    let cut = without_middle(&whole, fits);
+    let response = ui.add(egui::Label::new(cut).sense(Sense::click()));
+    let label = whole.clone();
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, label.clone()));
+    let hover =
+        if of.is_other_file { "the state before is another file" } else { "click: existing, proposed or demolished" };
+    let response = response.on_hover_text(format!("{whole}\n{hover}"));
+    let mut chosen = None;
+    egui::Popup::menu(&response).show(|ui| {
+        for (state, name, means) in ComponentState::ALL {
+            let entry = egui::Button::selectable(state == of.state, name);
+            let entry = ui.add_enabled(!of.is_other_file, entry).on_hover_text(means);
+            if entry.on_disabled_hover_text("The state before is another file, which says what stands there").clicked()
+            {
+                chosen = Some(state);
+            }
+        }
+    });
+    chosen
 }
 
 /// The number of hidden components, and a button that shows them again.
@@ -152,8 +217,10 @@ fn roles(project: &Project, settings: &WindowSettings, casts: bool) -> Vec<bool>
 }
 
 /// Sets in the site whether a component casts, or whether it receives.
-fn switch(project: &Project, settings: &mut WindowSettings, (index, casts, on): (usize, bool, bool), now: &[bool]) {
+fn switch(project: &Project, settings: &mut WindowSettings, (index, casts, on): (usize, bool, bool)) {
     let site = &project.site;
+    // what is demolished keeps its own
+    let now = roles(project, settings, casts);
     let mut first = 0;
     for (model, count) in project.models.component_counts().into_iter().enumerate() {
         if (first..first + count).contains(&index) {

@@ -27,6 +27,8 @@ pub(in crate::desktop) enum Purpose {
     Hours,
     /// Writes the hours as a line drawing, into a folder.
     Lines(Lines),
+    /// Writes the verdicts, into a folder.
+    Verdicts,
     /// Writes the study as pictures and as a GIF, into a folder.
     Animation,
 }
@@ -41,6 +43,7 @@ impl Purpose {
             Purpose::Hours => "Export the hours: a folder for the files",
             Purpose::Lines(Lines::Hours) => "Export the iso-hour lines: a folder for hours.png and hours.svg",
             Purpose::Lines(Lines::Outlines) => "Export the outlines: a folder for outlines.png and outlines.svg",
+            Purpose::Verdicts => "Export the verdicts: a folder for judgement.json and judgement.csv",
             Purpose::Animation => "Export the animation: a folder for day.gif and its pictures",
         }
     }
@@ -52,7 +55,7 @@ impl Purpose {
 
     /// Whether it is a folder, and not a file.
     fn is_folder(self) -> bool {
-        matches!(self, Purpose::Hours | Purpose::Lines(_) | Purpose::Animation)
+        matches!(self, Purpose::Hours | Purpose::Lines(_) | Purpose::Verdicts | Purpose::Animation)
     }
 
     /// The name that is proposed, beside the open site.
@@ -61,7 +64,7 @@ impl Purpose {
             Purpose::Open | Purpose::Compare => "",
             Purpose::SaveSite => "site.toml",
             Purpose::Drawing => "shadow.png",
-            Purpose::Hours | Purpose::Lines(_) => "out",
+            Purpose::Hours | Purpose::Lines(_) | Purpose::Verdicts => "out",
             Purpose::Animation => "animation",
         }
     }
@@ -119,7 +122,7 @@ impl PathDialog {
                 }
                 Purpose::SaveSite => dialog.add_filter("Site", &["toml"]).set_file_name(name).save_file(),
                 Purpose::Drawing => dialog.add_filter("PNG", &["png"]).set_file_name(name).save_file(),
-                Purpose::Hours | Purpose::Lines(_) | Purpose::Animation => dialog.pick_folder(),
+                Purpose::Hours | Purpose::Lines(_) | Purpose::Verdicts | Purpose::Animation => dialog.pick_folder(),
             };
             // if the window is closed, nobody receives this
             let _ = tell.send(path);

@@ -5,6 +5,8 @@ pub(in crate::desktop) mod cells;
 pub(in crate::desktop) mod change;
 pub(in crate::desktop) mod facades;
 pub(in crate::desktop) mod hours;
+pub(in crate::desktop) mod judged;
+pub(in crate::desktop) mod verdict_shapes;
 
 use crate::choice::Method;
 use crate::deliver::lines::Lines;

@@ -196,6 +196,22 @@ impl Eye {
         self.altitude_rad = (self.altitude_rad + pixels.y * turn).clamp(LOWEST_RAD, HIGHEST_RAD);
     }
 
+    /// The direction from the target to the eye, clockwise from north, radians.
+    pub(in crate::desktop) fn azimuth_rad(&self) -> f64 {
+        self.azimuth_rad
+    }
+
+    /// The same eye in another direction from its target.
+    pub(in crate::desktop) fn turned(self, azimuth_rad: f64, altitude_rad: f64) -> Eye {
+        Eye { azimuth_rad, altitude_rad: altitude_rad.clamp(LOWEST_RAD, HIGHEST_RAD), ..self }
+    }
+
+    /// Looks at something of this size: it is in the middle, neither too small to be found nor larger than the picture.
+    pub(in crate::desktop) fn look_at(&mut self, point: DVec3, size_m: f64) {
+        let height = self.framed().height_m.clamp(size_m * 2.5, size_m * 10.0);
+        self.frame(point, height);
+    }
+
     /// Pans by pixels, so that the ground follows the pointer.
     pub(in crate::desktop) fn pan(&mut self, pixels: DVec2, height: u32) {
         let [right, up] = self.across();

@@ -3,7 +3,9 @@
 
 pub(in crate::desktop) mod bare_model;
 pub(in crate::desktop) mod clock;
+pub(in crate::desktop) mod component_state;
 pub(in crate::desktop) mod eye;
+pub(in crate::desktop) mod judging;
 pub(in crate::desktop) mod pick;
 pub(in crate::desktop) mod project;
 pub(in crate::desktop) mod recovery;

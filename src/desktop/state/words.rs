@@ -44,6 +44,10 @@ impl Words for PanelWords {
             ("[place]", "longitude", _) => "\"Longitude\"".to_owned(),
             ("[place]", "elevation", _) => "\"Elevation\" under Place".to_owned(),
             ("[[model]]", "north", _) => "\"Model north\" under Place".to_owned(),
+            ("[[area]]", "", _) => "an area (\"Draw an area\" under Judge by a rule)".to_owned(),
+            ("[[window]]", "", _) => "a window (\"Pick windows\" under Judge by a rule)".to_owned(),
+            ("[plot]", "", _) => "the plot (\"Draw the plot\" under Judge by a rule)".to_owned(),
+            ("[before]", "", _) => "the state before (a component's name under Components)".to_owned(),
             // the panel has no fields for them
             ("[[model]]", "crs" | "position", _) => format!("`{key}` under [[model]] in the site file"),
             ("[[model]]", "scale", None) => "\"scale\" under Place".to_owned(),

@@ -39,9 +39,14 @@ fn camera(eye: &Eye, before: &CameraTable) -> CameraTable {
     }
 }
 
-/// Changes relative paths of models in a site file that moves to another folder.
-pub(in crate::desktop) fn move_models(site: &mut SiteFile, from: &Path, to: &Path) {
-    for name in site.model.iter_mut().filter_map(|model| model.path.as_mut()) {
+/// Changes the relative paths in a site file that moves to another folder: of models and of what is judged.
+pub(in crate::desktop) fn move_files(site: &mut SiteFile, from: &Path, to: &Path) {
+    let models = site.model.iter_mut().filter_map(|model| model.path.as_mut());
+    let areas = site.area.iter_mut().filter_map(|area| area.file.as_mut());
+    let rooms = site.window.iter_mut().filter_map(|window| window.rooms.as_mut());
+    let plot = site.plot.iter_mut().filter_map(|plot| plot.file.as_mut());
+    let before = site.before.iter_mut().filter_map(|before| before.site.as_mut());
+    for name in models.chain(areas).chain(rooms).chain(plot).chain(before) {
         *name = WrittenSite::name_in(to, &from.join(&*name));
     }
 }
@@ -55,7 +60,7 @@ pub(in crate::desktop) fn written(project: &Project, settings: &WindowSettings, 
         method => Some(method.word().to_owned()),
     };
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-    move_models(&mut site, &project.written.folder, &folder);
+    move_files(&mut site, &project.written.folder, &folder);
     WrittenSite { file: path.display().to_string(), folder, site, text: project.written.text.clone() }
 }
 

@@ -1,13 +1,14 @@
 //! Work in other threads.
 
 pub(in crate::desktop) mod export;
+pub(in crate::desktop) mod judging;
 pub(in crate::desktop) mod loading;
 pub(in crate::desktop) mod samples;
 pub(in crate::desktop) mod studies;
 
 use crate::desktop::state::words::{FileWords, PanelWords};
 use crate::fault;
-use crate::message::Message;
+use crate::message::{Message, Words};
 use crate::study::{Event, OnEvent, gather};
 use eframe::egui;
 use std::ops::ControlFlow;
@@ -29,9 +30,18 @@ pub(in crate::desktop) struct Work<T> {
 }
 
 impl<T: Send + 'static> Work<T> {
-    /// Starts work, which gets a listener for its events.
+    /// Starts work, which gets a listener for its events. Its errors are about files.
     pub(in crate::desktop) fn start(
         context: egui::Context,
+        work: impl FnOnce(&mut OnEvent<'_>) -> anyhow::Result<T> + Send + 'static,
+    ) -> Work<T> {
+        Work::start_in(context, &FileWords, work)
+    }
+
+    /// The same with these words for its errors.
+    pub(in crate::desktop) fn start_in(
+        context: egui::Context,
+        words: &'static dyn Words,
         work: impl FnOnce(&mut OnEvent<'_>) -> anyhow::Result<T> + Send + 'static,
     ) -> Work<T> {
         let (tell, result) = mpsc::channel();
@@ -70,7 +80,7 @@ impl<T: Send + 'static> Work<T> {
                 if heard.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             });
             // after a cancellation nobody receives this
-            let _ = tell.send(answer.map_err(|error| fault::line(error.as_ref(), &FileWords)));
+            let _ = tell.send(answer.map_err(|error| fault::line(error.as_ref(), words)));
             context.request_repaint();
         });
         Work { progress, note, notes, cancelled, result }

@@ -4,11 +4,15 @@
 mod csv;
 mod json;
 mod numbers;
+mod rows;
 mod rule_report;
+mod strip;
 mod table;
 
 pub use csv::csv;
 pub use json::json;
-pub(super) use numbers::CHECK;
+pub use numbers::CHECK;
+pub use rows::{ReceiverRow, TakerRow, group_said, receiver_row, taker_row};
 pub(super) use rule_report::{RuleReport, SettledReport, rule_report, settled_report};
+pub use strip::{BarKind, DayStrip, StripBar, StripSpell, day_strips};
 pub use table::table;

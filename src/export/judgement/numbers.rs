@@ -7,8 +7,7 @@ use crate::sun::{Place, Zone};
 use chrono::{DateTime, NaiveDate, TimeZone};
 
 /// The sentence that stands beside every verdict.
-pub(in crate::export) const CHECK: &str =
-    "Nothing here is legal advice: check with your authority which rule, edition and values hold.";
+pub const CHECK: &str = "Nothing here is legal advice: check with your authority which rule, edition and values hold.";
 
 /// Why a number that misses its limit is accepted all the same.
 pub(super) fn excuse(why: Excuse) -> String {

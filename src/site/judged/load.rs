@@ -24,9 +24,20 @@ use std::path::Path;
 /// # Errors
 /// Everything that can be wrong with it, each naming the file, the key or option, and a hint.
 pub fn load_judged(path: &Path, asked: &Overrides) -> Result<JudgedSite, SiteError> {
-    let as_written = WrittenSite::read(path, asked)?;
-    let (written, models) =
-        as_written.located(|| Models::read(&as_written, |path, options| asked.reading.read(path, options)))?;
+    let written = WrittenSite::read(path, asked)?;
+    judged_with_models(&written, asked, || Models::read(&written, |path, options| asked.reading.read(path, options)))
+}
+
+/// The same of a request that is read already; its models may be read, too.
+///
+/// # Errors
+/// As [`load_judged`].
+pub(crate) fn judged_with_models(
+    as_written: &WrittenSite,
+    asked: &Overrides,
+    models: impl FnOnce() -> Result<Models, SiteError>,
+) -> Result<JudgedSite, SiteError> {
+    let (written, models) = as_written.located(models)?;
     let written = &*written;
     let mut place = written.place(asked)?;
     let (dates, _) = dates(written, asked).map_err(|error| no_date(error, written))?;

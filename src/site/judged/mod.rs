@@ -18,6 +18,9 @@ mod rings;
 mod rooms;
 mod windows;
 
+pub(crate) use load::judged_with_models;
 pub use days::study_days;
 pub use load::load_judged;
 pub use request::{AreaSurface, JudgedArea, JudgedFacade, JudgedPlot, JudgedSite, JudgedState, JudgedWindow, PlotSide};
+#[cfg(feature = "desktop")]
+pub(crate) use rings::border_fault;

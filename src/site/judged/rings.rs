@@ -69,6 +69,12 @@ pub(super) fn checked(written: &[Vec<DVec2>]) -> Result<Vec<CheckedRing>, Messag
     Ok(rings)
 }
 
+/// Why corners bound no area, if they do not.
+#[cfg(feature = "desktop")]
+pub(crate) fn border_fault(corners: &[DVec2]) -> Option<Message> {
+    checked(&[corners.to_vec()]).err()
+}
+
 /// The corners of one border without repeats.
 fn ring(written: &[DVec2], of: &str) -> Result<CheckedRing, Message> {
     if let Some(at) = written.iter().position(|corner| !corner.is_finite() || corner.abs().max_element() > FARTHEST_M) {
