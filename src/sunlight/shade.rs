@@ -1,6 +1,5 @@
 //! Finds the seconds in which faces block the sun from a probe, for all days at once. It descends the cells of the
 //! sky's band, each with only the faces that reach it.
-//! with the faces alone that reach it.
 //!
 //! A cell that no face reaches is lit, and one that a single face fills is dark, without a look at its single days.
 //! What remains are slots of single days. In each, the faces, nearest first, remove the seconds that they certainly
