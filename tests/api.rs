@@ -158,7 +158,7 @@ fn parts_and_plans_that_are_none_are_refused() {
 #[test]
 fn tiles_and_instants_put_together_are_the_study() {
     let site = site_of(Mesh::build(vec![tower()]).unwrap());
-    let wants = Wants { budget: Some(Budget { bytes: 250_000, drawing: 0 }), ..Wants::default() };
+    let wants = Wants { budget: Some(Budget { bytes: 300_000, drawing: 0 }), ..Wants::default() };
     for method in [Method::Projected, Method::RayCast] {
         let site = Site { method, ..site.clone() };
         let study = TiledStudy::new(&site, &wants, &mut |_| ControlFlow::Continue(())).unwrap();
@@ -167,7 +167,7 @@ fn tiles_and_instants_put_together_are_the_study() {
         for tile in study.tiles() {
             let mut sums = vec![0u64; tile.cells()];
             for instants in site.track.instants.chunks(7) {
-                let part = study.sum(*tile, instants).unwrap();
+                let part = study.sum(*tile, instants, &mut |_| ControlFlow::Continue(())).unwrap();
                 sums.iter_mut().zip(part.iter()).for_each(|(sum, shaded)| *sum += shaded);
             }
             whole = paste(&whole, tile, &Arc::new(Shaded::from(sums)));
@@ -202,15 +202,49 @@ fn lists_and_tiles_of_something_else_are_refused() {
 
     let study = TiledStudy::new(&whole, &Wants::default(), on_event).unwrap();
     let own = study.tiles()[0];
-    assert!(study.sum(own, &whole.track.instants[..1]).is_ok());
+    assert!(study.sum(own, &whole.track.instants[..1], on_event).is_ok());
     let others = [
         Tile::from(Grid { west: GRID.west + 1.0, ..GRID }),
         Tile::from(Grid { width: GRID.width + 1, ..GRID }),
         Tile { first: [GRID.width, 0], ..own },
     ];
     for tile in others {
-        let error = study.sum(tile, &whole.track.instants[..1]).map(drop).unwrap_err();
+        let error = study.sum(tile, &whole.track.instants[..1], on_event).map(drop).unwrap_err();
         assert!(matches!(error, StudyError::OtherTile), "{tile:?}: {error}");
+    }
+}
+
+/// The sums of a part can be ended by the listener, after an instant and between two.
+#[test]
+fn the_sums_of_a_part_have_a_listener() {
+    let site = site_of(Mesh::build(vec![tower()]).unwrap());
+    let study = TiledStudy::new(&site, &Wants::default(), &mut |_| ControlFlow::Continue(())).unwrap();
+    let (tile, instants) = (study.tiles()[0], &site.track.instants);
+    let (mut drawn, mut between) = (Vec::new(), 0);
+    study
+        .sum(tile, instants, &mut |event| {
+            match event {
+                study::Event::Drawn { index, count, time, .. } => drawn.push((index, count, time)),
+                study::Event::Between => between += 1,
+                other => panic!("{other:?}"),
+            }
+            ControlFlow::Continue(())
+        })
+        .unwrap();
+    let expected = instants.iter().enumerate().map(|(index, instant)| (index, instants.len(), instant.time));
+    assert_eq!(drawn, expected.collect::<Vec<_>>());
+    assert!(between > 0);
+    for ends_between in [false, true] {
+        let mut heard = 0;
+        let ended = study.sum(tile, instants, &mut |event| {
+            heard += 1;
+            match matches!(event, study::Event::Between) == ends_between {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            }
+        });
+        assert!(matches!(ended, Err(StudyError::Interrupted)), "between: {ends_between}");
+        assert!(heard < instants.len() + between, "{heard} events");
     }
 }
 
