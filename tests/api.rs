@@ -8,6 +8,7 @@ mod site_in_memory;
 mod sums_of_a_study;
 
 use crate::model::Model;
+use crate::shared::memory::CountedThread;
 use crate::shared::scenes::cuboid;
 use chrono::{NaiveDate, TimeZone};
 use glam::{DVec3, dvec3};
@@ -245,6 +246,52 @@ fn the_sums_of_a_part_have_a_listener() {
         });
         assert!(matches!(ended, Err(StudyError::Interrupted)), "between: {ends_between}");
         assert!(heard < instants.len() + between, "{heard} events");
+    }
+}
+
+/// A plate far towards the sun shades the whole plan at one instant and nothing of it an hour later.
+fn all_change() -> Site {
+    let date = NaiveDate::from_ymd_opt(2026, 3, 21);
+    let window = Window { date, from: "9:00".parse().unwrap(), to: "10:00".parse().unwrap(), step_secs: 3600 };
+    let track = SunTrack::window(&vienna(), &window, true).unwrap();
+    let to_sun = track.instants[0].to_sun;
+    let (east, middle) = (to_sun.cross(DVec3::Z).normalize() * 300.0, to_sun * 5000.0);
+    let up = east.cross(to_sun);
+    let positions = [-east - up, east - up, east + up, up - east].map(|corner| middle + corner).to_vec();
+    let plate = Part { name: "plate".into(), positions, triangles: vec![[0, 1, 2], [0, 2, 3]], ..Part::default() };
+    let grid = Grid { west: -40.0, north: 40.0, cell: 0.25, width: 320, height: 320 };
+    let site = Site::in_memory(vienna(), Mesh::build(vec![plate]).unwrap(), Some(0.0), track, grid).unwrap();
+    Site { engine: Engine::Cpu, method: Method::RayCast, receives: vec![false], ..site }
+}
+
+#[test]
+fn the_budget_holds_where_every_cell_changes() {
+    let site = all_change();
+    assert_eq!(site.track.resolution_secs, 60);
+    let of = |budget: Option<u64>| {
+        let budget = budget.map(|bytes| Budget { bytes, drawing: 0 });
+        let wants = Wants { budget, ..Wants::default() };
+        let (mut tiles, mut cells) = (0, Vec::new());
+        let on_event = &mut |event: study::Event<'_>| {
+            if let study::Event::Summed(shaded) = event {
+                tiles += 1;
+                cells.extend(shaded.iter());
+            }
+            ControlFlow::Continue(())
+        };
+        study::in_tiles(TiledStudy::new(&site, &wants, on_event).unwrap(), None, on_event).unwrap();
+        (tiles, cells)
+    };
+    let (_, whole) = of(None);
+    let changed = whole.iter().filter(|secs| (1..3600 * 255).contains(*secs)).count();
+    assert_eq!(changed, site.grid.cells(), "every cell changes between the instants");
+    for budget in [1_200_000, 3_000_000] {
+        let (found, most) = CountedThread::new().run(|| of(Some(budget)));
+        assert!(found.0 > 1, "{} tiles", found.0);
+        assert!(found.1 == whole);
+        // the sums of all tiles are this test's own
+        let own = 2 * 8 * site.grid.cells() as u64 + (1 << 18);
+        assert!(most < budget + own, "{most} bytes of {budget}");
     }
 }
 
