@@ -4,7 +4,7 @@
 use gnomon::choice::Engine;
 use gnomon::profile::{Shaded, hours};
 use gnomon::site::{Overrides, Site};
-use gnomon::study::{self, TiledStudy, Wants};
+use gnomon::study::{self, Event, TiledStudy, Wants};
 use std::ops::ControlFlow;
 use std::path::Path;
 
@@ -26,10 +26,11 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     );
 
     // Instants are numbers, found once and passed on. Sums are integers: whoever adds them up comes to the same.
-    let study = TiledStudy::new(&site, &Wants::default(), &mut |_| ControlFlow::Continue(()))?;
+    let go_on = &mut |_: Event<'_>| ControlFlow::Continue(());
+    let study = TiledStudy::new(&site, &Wants::default(), go_on)?;
     let (earlier, later) = site.track.instants.split_at(site.track.instants.len() / 2);
     let (tile, mut sums) = (study.tiles()[0], vec![0; profile.grid.cells()]);
-    for part in [study.sum(tile, earlier)?, study.sum(tile, later)?] {
+    for part in [study.sum(tile, earlier, go_on)?, study.sum(tile, later, go_on)?] {
         sums.iter_mut().zip(part.iter()).for_each(|(sum, shaded)| *sum += shaded);
     }
     assert_eq!(Shaded::from(sums), profile.shaded);

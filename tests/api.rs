@@ -8,6 +8,7 @@ mod site_in_memory;
 mod sums_of_a_study;
 
 use crate::model::Model;
+use crate::shared::memory::CountedThread;
 use crate::shared::scenes::cuboid;
 use chrono::{NaiveDate, TimeZone};
 use glam::{DVec3, dvec3};
@@ -158,7 +159,7 @@ fn parts_and_plans_that_are_none_are_refused() {
 #[test]
 fn tiles_and_instants_put_together_are_the_study() {
     let site = site_of(Mesh::build(vec![tower()]).unwrap());
-    let wants = Wants { budget: Some(Budget { bytes: 250_000, drawing: 0 }), ..Wants::default() };
+    let wants = Wants { budget: Some(Budget { bytes: 300_000, drawing: 0 }), ..Wants::default() };
     for method in [Method::Projected, Method::RayCast] {
         let site = Site { method, ..site.clone() };
         let study = TiledStudy::new(&site, &wants, &mut |_| ControlFlow::Continue(())).unwrap();
@@ -167,7 +168,7 @@ fn tiles_and_instants_put_together_are_the_study() {
         for tile in study.tiles() {
             let mut sums = vec![0u64; tile.cells()];
             for instants in site.track.instants.chunks(7) {
-                let part = study.sum(*tile, instants).unwrap();
+                let part = study.sum(*tile, instants, &mut |_| ControlFlow::Continue(())).unwrap();
                 sums.iter_mut().zip(part.iter()).for_each(|(sum, shaded)| *sum += shaded);
             }
             whole = paste(&whole, tile, &Arc::new(Shaded::from(sums)));
@@ -202,15 +203,95 @@ fn lists_and_tiles_of_something_else_are_refused() {
 
     let study = TiledStudy::new(&whole, &Wants::default(), on_event).unwrap();
     let own = study.tiles()[0];
-    assert!(study.sum(own, &whole.track.instants[..1]).is_ok());
+    assert!(study.sum(own, &whole.track.instants[..1], on_event).is_ok());
     let others = [
         Tile::from(Grid { west: GRID.west + 1.0, ..GRID }),
         Tile::from(Grid { width: GRID.width + 1, ..GRID }),
         Tile { first: [GRID.width, 0], ..own },
     ];
     for tile in others {
-        let error = study.sum(tile, &whole.track.instants[..1]).map(drop).unwrap_err();
+        let error = study.sum(tile, &whole.track.instants[..1], on_event).map(drop).unwrap_err();
         assert!(matches!(error, StudyError::OtherTile), "{tile:?}: {error}");
+    }
+}
+
+/// The sums of a part can be ended by the listener, after an instant and between two.
+#[test]
+fn the_sums_of_a_part_have_a_listener() {
+    let site = site_of(Mesh::build(vec![tower()]).unwrap());
+    let study = TiledStudy::new(&site, &Wants::default(), &mut |_| ControlFlow::Continue(())).unwrap();
+    let (tile, instants) = (study.tiles()[0], &site.track.instants);
+    let (mut drawn, mut between) = (Vec::new(), 0);
+    study
+        .sum(tile, instants, &mut |event| {
+            match event {
+                study::Event::Drawn { index, count, time, .. } => drawn.push((index, count, time)),
+                study::Event::Between => between += 1,
+                other => panic!("{other:?}"),
+            }
+            ControlFlow::Continue(())
+        })
+        .unwrap();
+    let expected = instants.iter().enumerate().map(|(index, instant)| (index, instants.len(), instant.time));
+    assert_eq!(drawn, expected.collect::<Vec<_>>());
+    assert!(between > 0);
+    for ends_between in [false, true] {
+        let mut heard = 0;
+        let ended = study.sum(tile, instants, &mut |event| {
+            heard += 1;
+            match matches!(event, study::Event::Between) == ends_between {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            }
+        });
+        assert!(matches!(ended, Err(StudyError::Interrupted)), "between: {ends_between}");
+        assert!(heard < instants.len() + between, "{heard} events");
+    }
+}
+
+/// A plate far towards the sun shades the whole plan at one instant and nothing of it an hour later.
+fn all_change() -> Site {
+    let date = NaiveDate::from_ymd_opt(2026, 3, 21);
+    let window = Window { date, from: "9:00".parse().unwrap(), to: "10:00".parse().unwrap(), step_secs: 3600 };
+    let track = SunTrack::window(&vienna(), &window, true).unwrap();
+    let to_sun = track.instants[0].to_sun;
+    let (east, middle) = (to_sun.cross(DVec3::Z).normalize() * 300.0, to_sun * 5000.0);
+    let up = east.cross(to_sun);
+    let positions = [-east - up, east - up, east + up, up - east].map(|corner| middle + corner).to_vec();
+    let plate = Part { name: "plate".into(), positions, triangles: vec![[0, 1, 2], [0, 2, 3]], ..Part::default() };
+    let grid = Grid { west: -40.0, north: 40.0, cell: 0.25, width: 320, height: 320 };
+    let site = Site::in_memory(vienna(), Mesh::build(vec![plate]).unwrap(), Some(0.0), track, grid).unwrap();
+    Site { engine: Engine::Cpu, method: Method::RayCast, receives: vec![false], ..site }
+}
+
+#[test]
+fn the_budget_holds_where_every_cell_changes() {
+    let site = all_change();
+    assert_eq!(site.track.resolution_secs, 60);
+    let of = |budget: Option<u64>| {
+        let budget = budget.map(|bytes| Budget { bytes, drawing: 0 });
+        let wants = Wants { budget, ..Wants::default() };
+        let (mut tiles, mut cells) = (0, Vec::new());
+        let on_event = &mut |event: study::Event<'_>| {
+            if let study::Event::Summed(shaded) = event {
+                tiles += 1;
+                cells.extend(shaded.iter());
+            }
+            ControlFlow::Continue(())
+        };
+        study::in_tiles(TiledStudy::new(&site, &wants, on_event).unwrap(), None, on_event).unwrap();
+        (tiles, cells)
+    };
+    let (_, whole) = of(None);
+    let changed = whole.iter().filter(|secs| (1..3600 * 255).contains(*secs)).count();
+    assert_eq!(changed, site.grid.cells(), "every cell changes between the instants");
+    for budget in [1_200_000, 3_000_000] {
+        let (found, most) = CountedThread::new().run(|| of(Some(budget)));
+        assert!(found.0 > 1, "{} tiles", found.0);
+        assert!(found.1 == whole);
+        // the sums of all tiles are this test's own
+        let own = 2 * 8 * site.grid.cells() as u64 + (1 << 18);
+        assert!(most < budget + own, "{most} bytes of {budget}");
     }
 }
 

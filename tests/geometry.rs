@@ -1,6 +1,7 @@
 //! The mesh, its silhouettes, its volumes and ray casting, each against a simple recomputation.
 
 mod beams;
+mod edges;
 mod planes;
 mod rays;
 mod report;

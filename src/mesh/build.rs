@@ -114,6 +114,7 @@ impl Mesh {
             edges: Arc::default(),
             edge_first: Arc::default(),
             incidences: Arc::default(),
+            blocks: Arc::default(),
         };
         adjacency::find(&mut mesh);
         mesh

@@ -4,6 +4,7 @@
 //! [`report`] says what is wrong with it, and the rule in [`crate::volume`] makes the shadows of defective parts right.
 
 mod adjacency;
+pub(crate) mod blocks;
 mod build;
 mod error;
 mod part;
@@ -23,4 +24,5 @@ pub use error::MeshError;
 pub use part::{CornerPrecision, Part};
 #[doc(hidden)]
 pub use planes::plane_faces;
+pub(crate) use triangles::MeshBlock;
 pub use triangles::{Component, Incidence, Mesh};

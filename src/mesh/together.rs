@@ -68,9 +68,9 @@ impl CornerGroup {
 
 impl CornerGroups {
     pub(super) fn of(parts: &[Part]) -> CornerGroups {
-        let points = || parts.par_iter().flat_map(|part| part.positions.par_iter().copied());
-        let low = points().reduce(|| DVec3::INFINITY, DVec3::min);
-        let high = points().reduce(|| DVec3::NEG_INFINITY, DVec3::max);
+        let points = parts.par_iter().flat_map(|part| part.positions.par_iter().map(|&corner| (corner, corner)));
+        let both = |one: (DVec3, DVec3), other: (DVec3, DVec3)| (one.0.min(other.0), one.1.max(other.1));
+        let (low, high) = points.reduce(|| (DVec3::INFINITY, DVec3::NEG_INFINITY), both);
         // all corners are in neighbouring cells
         let are_one = |cell_m: f64| (high - low).max_element() <= cell_m;
         let home = if are_one(HOME_CELL_M) { CornerGroup { low, high, ..CornerGroup::NONE } } else { home(parts) };
@@ -159,14 +159,20 @@ impl Clusters {
         let mut above: Vec<u32> = Vec::new();
         for part in parts {
             let of_corner: Vec<u32> = {
-                let mut number_of = remembering(|cell| {
+                let number_of = remembering(cell_m, |cell| {
                     *number.entry(cell).or_insert_with(|| {
                         cells.push(cell);
                         above.push(above.len() as u32);
                         above.len() as u32 - 1
                     })
                 });
-                part.positions.iter().map(|&corner| number_of(cell(corner, cell_m))).collect()
+                let numbers = part.positions.iter().copied().map(number_of);
+                // otherwise nobody asks for the corners' numbers
+                if joined_by_triangles {
+                    numbers.collect()
+                } else {
+                    numbers.map(drop).fold(Vec::new(), |none, ()| none)
+                }
             };
             for triangle in part.triangles.iter().filter(|_| joined_by_triangles) {
                 let [a, b, c] = triangle.map(|corner| of_corner[corner as usize]);
@@ -196,26 +202,27 @@ impl Clusters {
 
     /// The group of each of a part's corners.
     fn of_corners<'a>(&'a self, part: &'a Part) -> impl Iterator<Item = u32> + 'a {
-        let mut group_of = remembering(|cell| self.group_of[&cell]);
-        part.positions.iter().map(move |&corner| group_of(cell(corner, self.cell_m)))
+        part.positions.iter().copied().map(remembering(self.cell_m, |cell| self.group_of[&cell]))
     }
 }
 
-/// Caches the last answer: a corner is usually in the cell of the one before it.
-fn remembering(mut find: impl FnMut([i64; 3]) -> u32) -> impl FnMut([i64; 3]) -> u32 {
+/// Finds something for the cell of a corner, and caches the last answer: a corner is usually in the cell of the one
+/// before it.
+fn remembering(cell_m: f64, mut find: impl FnMut([i64; 3]) -> u32) -> impl FnMut(DVec3) -> u32 {
     let mut last = None;
-    move |cell| match last {
-        Some((asked, found)) if asked == cell => found,
-        _ => {
-            let found = find(cell);
-            last = Some((cell, found));
-            found
+    move |corner| {
+        let place = corner / cell_m;
+        match last {
+            // comparing takes less time than rounding
+            Some((low, found)) if place.cmpge(low).all() && place.cmplt(low + 1.0).all() => found,
+            _ => {
+                let low = place.floor();
+                let found = find(low.to_array().map(|at| at as i64));
+                last = Some((low, found));
+                found
+            }
         }
     }
-}
-
-fn cell(corner: DVec3, cell_m: f64) -> [i64; 3] {
-    (corner / cell_m).floor().to_array().map(|at| at as i64)
 }
 
 fn join(above: &mut [u32], one: u32, other: u32) {

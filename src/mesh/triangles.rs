@@ -1,7 +1,8 @@
 //! The mesh: welded triangles, grouped by component, with edge adjacency.
 
 use super::CornerPrecision;
-use glam::{DVec3, DVec4, Vec3};
+use glam::{DVec3, DVec4, Vec3, Vec3A};
+use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
@@ -66,6 +67,15 @@ pub struct Mesh {
     /// The index in `incidences` of each edge's first face; one entry more than `edges`.
     pub(super) edge_first: Arc<Vec<u32>>,
     pub(super) incidences: Arc<Vec<Incidence>>,
+    /// In the order of faces and edges; at least one.
+    pub(super) blocks: Arc<[MeshBlock]>,
+}
+
+/// Consecutive faces that share no vertex with others, and their edges.
+#[derive(Clone, Debug)]
+pub(crate) struct MeshBlock {
+    pub(crate) faces: Range<u32>,
+    pub(crate) edges: Range<u32>,
 }
 
 impl Mesh {
@@ -74,6 +84,17 @@ impl Mesh {
     /// The greatest distance of a vertex from the origin, metres. There, `f32` still has steps of half a metre, which
     /// is coarse, but a model so large has the same steps in its file.
     pub const FARTHEST_M: f64 = 8.0e6;
+
+    /// Blocks of faces, connected only within themselves, so that work along edges can be done block by block.
+    pub(crate) fn blocks(&self) -> &[MeshBlock] {
+        &self.blocks
+    }
+
+    /// The number of blocks.
+    #[cfg(feature = "test-hooks")]
+    pub fn block_count(&self) -> usize {
+        self.blocks.len()
+    }
 
     /// The faces at an edge.
     pub fn faces_at(&self, edge: usize) -> &[Incidence] {
@@ -95,24 +116,40 @@ impl Mesh {
         self.bounds_where(run, |_| true)
     }
 
-    pub(super) fn bounds_where(&self, run: Range<u32>, counts: impl Fn(u32) -> bool) -> Option<(DVec3, DVec3)> {
-        let points = || {
-            let vertices = self.faces[run.start as usize..run.end as usize].iter().flatten().copied();
-            vertices.filter(|&vertex| counts(vertex)).map(|vertex| self.vertices[vertex as usize])
+    pub(super) fn bounds_where(&self, run: Range<u32>, counts: impl Fn(u32) -> bool + Sync) -> Option<(DVec3, DVec3)> {
+        /// The least number of faces for one task.
+        const AT_ONCE: usize = 1 << 12;
+        let none = || (Vec3A::INFINITY, Vec3A::NEG_INFINITY);
+        let both = |one: (Vec3A, Vec3A), other: (Vec3A, Vec3A)| (one.0.min(other.0), one.1.max(other.1));
+        let of_face = |bounds: (Vec3A, Vec3A), face: &[u32; 3]| {
+            let corners = face.iter().filter(|&&vertex| counts(vertex));
+            let corners = corners.map(|&vertex| Vec3A::from(self.vertices[vertex as usize]));
+            corners.fold(bounds, |bounds, corner| both(bounds, (corner, corner)))
         };
-        let low = points().fold(Vec3::INFINITY, Vec3::min);
-        let high = points().fold(Vec3::NEG_INFINITY, Vec3::max);
+        let faces = self.faces[run.start as usize..run.end as usize].par_iter().with_min_len(AT_ONCE);
+        let (low, high) = faces.fold(none, of_face).reduce(none, both);
         (low.x <= high.x).then(|| (low.as_dvec3() + self.origin, high.as_dvec3() + self.origin))
     }
 
     /// As [`Mesh::bounds`], for what stands together, without strays.
     pub fn bounds_at_home(&self) -> Option<(DVec3, DVec3)> {
+        if self.are_all_at_home() {
+            return self.bounds();
+        }
         self.bounds_where(0..self.faces.len() as u32, |vertex| self.is_at_home(vertex)).or_else(|| self.bounds())
     }
 
     /// The box around what stands together, metres relative to `origin`: lowest and highest corner.
     pub fn home(&self) -> [Vec3; 2] {
         self.home
+    }
+
+    /// Whether there are no strays, as in most meshes.
+    pub(crate) fn are_all_at_home(&self) -> bool {
+        /// The least number of vertices for one task.
+        const AT_ONCE: usize = 1 << 14;
+        let vertices = (0..self.vertices.len() as u32).into_par_iter().with_min_len(AT_ONCE);
+        vertices.all(|vertex| self.is_at_home(vertex))
     }
 
     /// Whether a vertex belongs to what stands together, and is not a stray.

@@ -15,10 +15,7 @@ pub(super) struct Bounds {
 impl Bounds {
     /// The box around all faces except distant strays; `None` without faces.
     pub(super) fn of(mesh: &Mesh) -> Option<Bounds> {
-        let none = Bounds { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
-        let bounds = around(mesh, |_| true, none, |corner| Bounds { low: corner, high: corner });
-        let bounds = if bounds.low.is_finite() { (bounds.low, bounds.high) } else { mesh.bounds()? };
-        Some(Bounds { low: bounds.0, high: bounds.1 })
+        mesh.bounds_at_home().map(|(low, high)| Bounds { low, high })
     }
 
     /// The union.
@@ -68,11 +65,12 @@ pub(super) fn with_shadows(
 fn around(mesh: &Mesh, of: impl Fn(usize) -> bool, first: Bounds, tell: impl Fn(DVec3) -> Bounds + Sync) -> Bounds {
     /// The least number of faces for one task.
     const AT_ONCE: usize = 1 << 12;
+    let are_all_home = mesh.are_all_at_home();
     let components = mesh.components.iter().enumerate().filter(|(index, _)| of(*index));
     components.fold(first, |bounds, (_, component)| {
         let faces = &mesh.faces[component.faces.start as usize..component.faces.end as usize];
         let of_face = |bounds: Bounds, face: &[u32; 3]| {
-            let corners = face.iter().filter(|&&corner| mesh.is_at_home(corner));
+            let corners = face.iter().filter(|&&corner| are_all_home || mesh.is_at_home(corner));
             let points = corners.map(|&corner| mesh.origin + mesh.vertices[corner as usize].as_dvec3());
             points.map(&tell).fold(bounds, Bounds::and)
         };

@@ -94,23 +94,27 @@ impl ModelMeasures {
         self.faces += 1;
         let vector = (b - a).cross(c - a) / 2.0;
         let area = vector.length();
-        let Some(normal) = vector.try_normalize() else { return };
+        // `try_normalize` would find the length again
+        let over_area = area.recip();
+        if !(over_area.is_finite() && over_area > 0.0) {
+            return;
+        }
+        let normal = vector * over_area;
+        // without branches, as none of these could be predicted
+        let if_so = |counts: bool| if counts { area } else { 0.0 };
         self.area += area;
-        if normal.z.abs() < PLUMB {
-            self.walls += area;
-        }
-        if normal.z > 0.5 {
-            self.upwards[0] += area;
-            self.upwards[1] += area * (a.z + b.z + c.z) / 3.0;
-        }
+        self.walls += if_so(normal.z.abs() < PLUMB);
+        let upwards = if_so(normal.z > 0.5);
+        self.upwards[0] += upwards;
+        self.upwards[1] += upwards * (a.z + b.z + c.z) / 3.0;
         for axis in [1, 2] {
             let along = normal[axis];
-            let side = usize::from(along < 0.0);
             // level to within 5°, as well
-            if along.abs() > (1.0 - PLUMB * PLUMB).sqrt() {
-                self.level[side][axis] += area;
-            } else if along.abs() >= PLUMB {
-                self.sloped[side][axis] += area;
+            let is_level = along.abs() > (1.0 - PLUMB * PLUMB).sqrt();
+            let is_sloped = !is_level && along.abs() >= PLUMB;
+            for (side, is_side) in [along >= 0.0, along < 0.0].into_iter().enumerate() {
+                self.level[side][axis] += if_so(is_side && is_level);
+                self.sloped[side][axis] += if_so(is_side && is_sloped);
             }
         }
     }
@@ -201,10 +205,14 @@ pub(super) fn of(
         let world = mesh.origin + mesh.vertices[vertex as usize].as_dvec3();
         upright_from_world * (world - position)
     };
+    let are_all_home = mesh.are_all_at_home();
     let of_faces = |faces: &[[u32; 3]], only_home: bool| {
         let mut measured = ModelMeasures::NOTHING;
-        for face in faces.iter().filter(|face| !only_home || face.iter().all(|&vertex| mesh.is_at_home(vertex))) {
-            measured.add(face.map(corner));
+        let is_counted = |face: &&[u32; 3]| face.iter().all(|&vertex| mesh.is_at_home(vertex));
+        let mut add = |face: &[u32; 3]| measured.add(face.map(corner));
+        match only_home && !are_all_home {
+            true => faces.iter().filter(is_counted).for_each(add),
+            false => faces.iter().for_each(&mut add),
         }
         measured
     };

@@ -31,6 +31,7 @@ mod left_out;
 mod likeness;
 mod load;
 mod located;
+mod mark;
 mod model_bounds;
 mod model_place;
 mod model_table;

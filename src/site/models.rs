@@ -7,6 +7,7 @@ use super::file::{Names, PlaceTable};
 use super::georeference::Georeference;
 use super::ground::Ground;
 use super::likeness::{self, Likeness, TakenFrame};
+use super::mark::ModelsMark;
 use super::model_place::{self, ModelElevation, ModelReference, ModelsFrame};
 use super::model_table::placed;
 use super::names::names_of;
@@ -21,9 +22,7 @@ use crate::formats::{Coordinates, Model, ModelError, PartKind, ReadOptions, SeeT
 use crate::mesh::{Component, Mesh, MeshError};
 use crate::message::{Message, few, message, set_to};
 use glam::DVec3;
-use rustc_hash::FxBuildHasher;
 use std::cmp::Reverse;
-use std::hash::BuildHasher;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
@@ -48,7 +47,7 @@ pub struct Models {
     /// The see-through materials of each model; their part numbers are relative to the model.
     see_through: Vec<Vec<SeeThrough>>,
     sources: Vec<Source>,
-    mark: u64,
+    mark: ModelsMark,
     /// The place around which they stand, if one of them is placed on Earth.
     place: Option<[Option<f64>; 3]>,
     /// The place's numbers as written when the models were read.
@@ -126,7 +125,7 @@ impl Models {
         let bounds = Bounds::of(&mesh).ok_or_else(|| SiteError::NoTriangles { file: written.file.clone() })?;
         let [written_place, place] = places(written, proposed.as_ref());
         let models = Models {
-            mark: mark(&mesh),
+            mark: ModelsMark::default(),
             mesh,
             bounds,
             notes,
@@ -215,7 +214,7 @@ impl Models {
 
     /// A hash of all models: it changes with their triangles or names.
     pub fn mark(&self) -> u64 {
-        self.mark
+        self.mark.of(&self.mesh)
     }
 
     /// Whether the ground found under them for a request has this level, metres.
@@ -294,17 +293,6 @@ fn far_from(written: &WrittenSite, proposed: Option<&PlaceTable>, is_on_earth: b
         true => FarFrom::Place,
         false => FarFrom::OwnZero,
     }
-}
-
-/// A hash of a whole mesh, names included.
-fn mark(mesh: &Mesh) -> u64 {
-    let names = mesh.components.iter().map(|component| (&component.name, &component.faces));
-    FxBuildHasher.hash_one((
-        bytemuck::cast_slice::<_, u8>(&mesh.vertices),
-        bytemuck::cast_slice::<_, u8>(&mesh.faces),
-        mesh.origin.to_array().map(f64::to_bits),
-        names.collect::<Vec<_>>(),
-    ))
 }
 
 /// A note on the see-through materials of a model, which cast as solid, the most frequent first.

@@ -1,5 +1,6 @@
 //! A technique with everything that it needs to be made for a view.
 
+use super::tile_sum::SEARCH_BYTES;
 use super::{StudyError, Wants, subject};
 use crate::choice::{Engine, Finder, Method, MethodRow, Misfit, Receivers, Settings, Subject};
 use crate::gpu::Gpu;
@@ -96,10 +97,15 @@ impl Machine {
             // textures of surfaces, judged depth, mask and sums, and the buffer that is read back
             (_, Some(_), _) => 64,
         };
-        // bits of both ends of a gap, and what changes of a part of it
-        let search = if searches && self.gpu.is_none() { 4 } else { 0 };
+        // bits of both ends of a gap and of what they have in common; the changes of a part of the cells
+        let search = if searches && self.gpu.is_none() { 2 + SEARCH_BYTES[0] } else { 0 };
         // bits twice; fragments as they are summed, and as they are read back
         drawing + search + u64::from(wants.bits) + if wants.statistics { 32 } else { 0 }
+    }
+
+    /// The memory for a column of the plan besides that for its cells, bytes.
+    pub(super) fn column_bytes(&self, searches: bool) -> u64 {
+        if searches && self.gpu.is_none() { SEARCH_BYTES[1] } else { 0 }
     }
 
     /// The greatest number of columns and rows that can be drawn at once.

@@ -26,14 +26,15 @@ pub(super) fn of(site: &Site, machine: &Machine, wants: &Wants, day_secs: u32) -
     let cell_bytes = machine.cell_bytes(subject, wants, searches) + long;
     let (most, columns) = columns(grid, machine);
     let row_bytes = u64::from(columns) * cell_bytes;
+    let tile_bytes = u64::from(columns) * machine.column_bytes(searches);
     let rows = match wants.budget {
         None => most,
         Some(Budget { bytes, drawing }) => {
-            let least = drawing.max(row_bytes * u64::from(LEAST_ROWS.min(grid.height)));
+            let least = drawing.max(row_bytes * u64::from(LEAST_ROWS.min(grid.height)) + tile_bytes);
             if bytes < least {
                 return Err(StudyError::LittleMemory { asked: bytes, least, width: grid.width });
             }
-            u32::try_from(bytes / row_bytes).unwrap_or(u32::MAX).min(most)
+            u32::try_from((bytes - tile_bytes) / row_bytes).unwrap_or(u32::MAX).min(most)
         }
     };
     Ok(split(grid, columns, rows))

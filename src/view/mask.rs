@@ -80,11 +80,24 @@ impl Bits {
         let rows = share.par_chunks_mut(self.width as usize).zip(self.words.par_chunks(self.in_row()));
         rows.for_each(|(shares, words)| {
             for (shares, word) in shares.chunks_mut(64).zip(words) {
-                for (at, share) in shares.iter_mut().enumerate() {
-                    *share = if word >> at & 1 == 1 { 0 } else { 255 };
+                for (shares, bits) in shares.chunks_mut(8).zip(word.to_le_bytes()) {
+                    shares.copy_from_slice(&SHARES[usize::from(bits)][..shares.len()]);
                 }
             }
         });
         Mask { width: self.width, height: self.height, share }
     }
 }
+
+/// For each value of eight bits, the shares of their cells.
+const SHARES: [[u8; 8]; 256] = {
+    let mut shares = [[255; 8]; 256];
+    let mut at = 0;
+    while at < 256 * 8 {
+        if at / 8 >> (at % 8) & 1 == 1 {
+            shares[at / 8][at % 8] = 0;
+        }
+        at += 1;
+    }
+    shares
+};

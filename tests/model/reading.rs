@@ -162,6 +162,43 @@ fn only_the_vertices_in_use_are_kept() {
     assert_eq!(part.positions.len(), 3);
 }
 
+/// Vertices get their numbers in the order in which triangles use them, in long lists as in short ones, whether the list
+/// can be cut into blocks or not.
+#[test]
+fn vertices_are_numbered_as_triangles_use_them() {
+    const COUNT: u32 = 90_000;
+    // a zigzag of which every seventh vertex is skipped; `tied` joins its ends
+    let zigzag =
+        || (0..COUNT - 9).filter(|first| first % 7 != 0).map(|first| [first + 8, first + 1, first + 1 + first % 5]);
+    let tied = || [[COUNT - 1, 0, 7]].into_iter().chain(zigzag());
+    for (triangles, mirror) in [(zigzag().collect::<Vec<_>>(), 1), (tied().collect(), 1), (tied().collect(), -1)] {
+        let mut model = Model::new();
+        let positions: Vec<f32> = (0..COUNT).flat_map(|at| [at as f32, (at % 11) as f32, 0.0]).collect();
+        let positions = model.f32s("VEC3", &positions);
+        let bytes: Vec<u8> = triangles.iter().flatten().flat_map(|vertex| vertex.to_le_bytes()).collect();
+        let indices = model.accessor("SCALAR", U32, triangles.len() * 3, &bytes);
+        model.json["meshes"] = json!([{"primitives": [{"attributes": {"POSITION": positions}, "indices": indices}]}]);
+        model.json["nodes"] = json!([{"mesh": 0, "scale": [mirror, 1, 1]}]);
+
+        let part = model.part();
+        let (mut number, mut used) = (std::collections::HashMap::new(), Vec::new());
+        for (triangle, found) in triangles.iter().zip(&part.triangles) {
+            let [a, b, c] = *triangle;
+            let expected = if mirror < 0 { [a, c, b] } else { [a, b, c] };
+            let expected = expected.map(|vertex| {
+                *number.entry(vertex).or_insert_with(|| {
+                    used.push(vertex);
+                    used.len() as u32 - 1
+                })
+            });
+            assert_eq!(*found, expected, "triangle {triangle:?}");
+        }
+        assert_eq!(part.triangles.len(), triangles.len());
+        let x: Vec<u32> = part.positions.iter().map(|position| position.x.abs() as u32).collect();
+        assert!(x == used, "the vertices are others than those in use");
+    }
+}
+
 #[test]
 fn interleaved_vertices_are_read() {
     let mut model = Model::triangle();

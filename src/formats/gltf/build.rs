@@ -11,7 +11,7 @@ use super::primitive::{self, MaterialGroup, MeshTriangles, PrimitiveTriangles};
 use super::scene::PlacedNode;
 use super::{Fault, MAX_COMPONENTS, MAX_TRIANGLES, SeeThrough};
 use crate::formats::PartKind;
-use crate::mesh::Part;
+use crate::mesh::{Part, blocks};
 use glam::DAffine3;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -209,18 +209,21 @@ impl Builder {
         model_from_mesh: DAffine3,
     ) -> Result<(), Fault> {
         let mirrors = pose.model_from_mesh(&model_from_mesh).matrix3.determinant() < 0.0;
-        if self.numbers.len() < primitive.positions.count {
-            self.numbers.resize(primitive.positions.count, ABSENT);
-        }
         // cannot overflow: a part has at most three vertices per triangle
-        let first = part.positions.len() as u32;
+        let (first, first_triangle) = (part.positions.len() as u32, part.triangles.len());
         part.triangles.reserve(primitive.triangles);
-        for begin in (0..primitive.triangles).step_by(AT_ONCE) {
-            for [a, b, c] in primitive.corners(begin..(begin + AT_ONCE).min(primitive.triangles))? {
-                let triangle = if mirrors { [a, c, b] } else { [a, b, c] };
-                part.triangles.push(triangle.map(|vertex| self.number(vertex, first)));
-            }
+        let pieces = (0..primitive.triangles.div_ceil(AT_ONCE))
+            .into_par_iter()
+            .map(|piece| primitive.corners(piece * AT_ONCE..((piece + 1) * AT_ONCE).min(primitive.triangles)));
+        let pieces: Vec<Result<Vec<[u32; 3]>, Fault>> = pieces.collect();
+        for piece in pieces {
+            part.triangles.extend(piece?);
         }
+        let triangles = &mut part.triangles[first_triangle..];
+        if mirrors {
+            triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
+        }
+        self.number(triangles, primitive.positions.count, first);
         let stored = |vertex: u32| primitive.positions.vec3(vertex as usize);
         let used = self.used.par_iter().with_min_len(AT_ONCE);
         if pose.is_plain() {
@@ -249,15 +252,41 @@ impl Builder {
         Ok(())
     }
 
-    /// A vertex's index in the part; the primitive's vertices are added from `first` on.
-    fn number(&mut self, vertex: u32, first: u32) -> u32 {
-        let Some(number) = self.numbers.get_mut(vertex as usize) else {
-            return first; // `PrimitiveTriangles::corners` has checked the vertex.
-        };
-        if *number == ABSENT {
-            *number = first + self.used.len() as u32;
-            self.used.push(vertex);
+    /// Changes a primitive's triangles to refer to the part's vertices, which are added from `first` on in the order in
+    /// which triangles use them, and lists these in `used`. `PrimitiveTriangles::corners` has checked the vertices.
+    fn number(&mut self, triangles: &mut [[u32; 3]], vertices: usize, first: u32) {
+        if self.numbers.len() < vertices {
+            self.numbers.resize(vertices, ABSENT);
         }
-        *number
+        let (mut rest, mut others) = (&mut self.numbers[..vertices], triangles);
+        let mut blocks = Vec::new();
+        for block in blocks::blocks(others, vertices) {
+            let (numbers, triangles);
+            (numbers, rest) = std::mem::take(&mut rest).split_at_mut(block.vertices.len());
+            (triangles, others) = std::mem::take(&mut others).split_at_mut(block.triangles.len());
+            blocks.push((block.vertices.start as u32, numbers, triangles, Vec::new()));
+        }
+        blocks.par_iter_mut().for_each(|(before, numbers, triangles, used)| {
+            for vertex in triangles.iter_mut().flatten() {
+                let Some(number) = numbers.get_mut((*vertex - *before) as usize) else { continue };
+                if *number == ABSENT {
+                    *number = used.len() as u32;
+                    used.push(*vertex);
+                }
+                *vertex = *number;
+            }
+        });
+        for (_, _, _, used) in &blocks {
+            self.used.extend_from_slice(used);
+        }
+        let mut added = first;
+        let added = blocks.iter_mut().map(|(_, _, triangles, used)| {
+            added += used.len() as u32;
+            (triangles, added - used.len() as u32)
+        });
+        let added: Vec<(&mut &mut [[u32; 3]], u32)> = added.filter(|(_, added)| *added > 0).collect();
+        added
+            .into_par_iter()
+            .for_each(|(triangles, added)| triangles.iter_mut().flatten().for_each(|vertex| *vertex += added));
     }
 }

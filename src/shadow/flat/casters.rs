@@ -1,7 +1,8 @@
 //! What stands above a plane: points and edges, and for every sun the directions of the faces.
 
 use super::clumps::{Clumps, Judged, RasterBounds};
-use crate::mesh::{Incidence, Mesh, lowest};
+use super::edges::{CasterEdges, ClumpEdges, Edge, FaceSide};
+use crate::mesh::{Incidence, Mesh, MeshBlock, lowest};
 use glam::{DAffine3, DVec2, DVec3, Vec3Swizzles};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -18,10 +19,7 @@ pub(super) struct Casters {
     /// The normal of each group of coplanar faces, relative to the mesh's origin.
     normals: Vec<DVec3>,
     clumps: Clumps,
-    /// By clump; last those between two clumps.
-    edges: Vec<Edge>,
-    /// The first edge of each clump, and of those between two; one entry more.
-    edge_first: Vec<u32>,
+    edges: CasterEdges,
     /// The sections where faces cross the plane, from where they go down to where they go up, with their clump.
     sections: Vec<Section>,
     /// The clumps that can reach the drawn cells under the current sun.
@@ -32,31 +30,6 @@ pub(super) struct Casters {
     /// does not reach.
     signs: Vec<AtomicI8>,
     throw: DVec2,
-}
-
-/// An edge with two of its faces. An edge with more faces is repeated as often as needed.
-#[derive(Clone, Copy)]
-struct Edge {
-    ends: [u32; 2],
-    sides: [FaceSide; 2],
-}
-
-/// The group of a face, and its direction along the edge in the lowest bit: 1 against it.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) struct FaceSide(u32);
-
-impl FaceSide {
-    fn new(group: u32, against: bool) -> FaceSide {
-        FaceSide(group << 1 | u32::from(against))
-    }
-
-    fn group(self) -> usize {
-        (self.0 >> 1) as usize
-    }
-
-    fn is_other_side_of(self, other: FaceSide) -> bool {
-        self.0 ^ 1 == other.0
-    }
 }
 
 /// A projected silhouette edge: its ends, and the change of the sum where it is crossed, if it runs from lower rows to
@@ -87,21 +60,18 @@ impl Casters {
             EdgesAbove::cut(mesh, &points, run, |face| group_of[face as usize], no_side, &clump_of)
         });
         let runs: Vec<EdgesAbove> = runs.collect();
-        let edge_first = first_of_clumps(&runs, clumps.list().len());
-        let mut next = edge_first.clone();
         let whole = points.len() as u32;
-        let mut edges = vec![Edge { ends: [0; 2], sides: [no_side; 2] }; runs.iter().map(|run| run.edges.len()).sum()];
-        let mut meets = Vec::new();
-        for run in runs {
+        let (mut edges, mut meets) = (Vec::with_capacity(runs.len()), Vec::new());
+        for mut run in runs {
             let before = points.len() as u32 - whole;
-            let of_all = |point: u32| if point < whole { point } else { point + before };
-            for (edge, clump) in &run.edges {
-                let slot = &mut next[*clump as usize];
-                edges[*slot as usize] = Edge { ends: edge.ends.map(of_all), ..*edge };
-                *slot += 1;
+            let of_all = |point: &mut u32| *point += if *point < whole { 0 } else { before };
+            if !run.cuts.is_empty() && before > 0 {
+                run.edges.edges.iter_mut().flat_map(|edge| &mut edge.ends).for_each(of_all);
+                run.meets.iter_mut().for_each(|(_, _, cut)| of_all(cut));
             }
-            meets.extend(run.meets.iter().map(|&(face, up, cut)| (face, up, of_all(cut))));
-            points.extend(run.cuts);
+            meets.append(&mut run.meets);
+            points.append(&mut run.cuts);
+            edges.push(run.edges);
         }
         // a face goes down through the plane once and up once; the section runs between the two
         meets.par_sort_unstable();
@@ -114,7 +84,8 @@ impl Casters {
         // a side without a face adds nothing
         let signs = (0..2 * (normals.len() + 1)).map(|_| AtomicI8::new(0)).collect();
         let (reaching, far, throw) = (Vec::new(), Vec::new(), DVec2::ZERO);
-        Casters { points, normals, clumps, edges, edge_first, sections, reaching, far, signs, throw }
+        let edges = CasterEdges::AsCut(edges);
+        Casters { points, normals, clumps, edges, sections, reaching, far, signs, throw }
     }
 
     /// Projects along a sun what reaches some of the raster; `throw` is the shadow's columns and rows per metre of
@@ -133,6 +104,9 @@ impl Casters {
         if is_worth_it && clumps.culling {
             far.extend(reaching.iter().copied().filter(|clump| !is_near(clump)));
             reaching.retain(is_near);
+        }
+        if reaching.len() < clumps.list().len() / 2 {
+            self.edges.sort(clumps.list().len());
         }
         self.turn(&self.reaching, Some(to_sun));
     }
@@ -182,26 +156,18 @@ impl Casters {
         &self.reaching
     }
 
-    /// The edges of what reaches, silhouette or not, in tasks of about equal length; each is a list of ranges.
-    pub(super) fn runs(&self, runs: usize) -> Vec<Vec<Range<usize>>> {
-        let between = self.clumps() as u32;
-        let of_clump = |clump: u32| [clump, clump + 1].map(|at| self.edge_first[at as usize] as usize);
-        let mut ranges: Vec<Range<usize>> = Vec::new();
-        for [first, end] in self.reaching.iter().copied().chain([between]).map(of_clump) {
-            match ranges.last_mut() {
-                Some(last) if last.end == first => last.end = end,
-                _ => ranges.push(first..end),
-            }
-        }
-        let each = ranges.iter().map(ExactSizeIterator::len).sum::<usize>().div_ceil(runs).max(1);
+    /// The edges of what reaches, silhouette or not, in tasks of about equal length.
+    pub(super) fn runs(&self, runs: usize) -> Vec<Vec<&[Edge]>> {
+        let slices = self.edges.of(&self.reaching, self.clumps());
+        let each = slices.iter().map(|edges| edges.len()).sum::<usize>().div_ceil(runs).max(1);
         let mut split = vec![Vec::new(); runs];
         let (mut run, mut room) = (0, each);
-        for mut range in ranges {
-            while !range.is_empty() {
-                let end = range.end.min(range.start + room);
-                room -= end - range.start;
-                split[run].push(range.start..end);
-                range.start = end;
+        for mut edges in slices {
+            while !edges.is_empty() {
+                let (these, others) = edges.split_at(edges.len().min(room));
+                room -= these.len();
+                split[run].push(these);
+                edges = others;
                 if room == 0 {
                     (run, room) = (run + 1, each);
                 }
@@ -221,14 +187,14 @@ impl Casters {
 
     /// The change that a face on a side makes under the current sun.
     pub(super) fn sign(&self, side: FaceSide) -> i32 {
-        i32::from(self.signs[side.0 as usize].load(Ordering::Relaxed))
+        i32::from(self.signs[side.index()].load(Ordering::Relaxed))
     }
 
     /// Calls `tell` with the silhouette edges among some edges.
-    pub(super) fn silhouette(&self, run: Range<usize>, mut tell: impl FnMut(FallingEdge)) {
+    pub(super) fn silhouette(&self, edges: &[Edge], mut tell: impl FnMut(FallingEdge)) {
         const AT_ONCE: usize = 128;
         let change = |edge: &Edge| -> i32 { edge.sides.map(|side| self.sign(side)).iter().sum() };
-        for edges in self.edges[run].chunks(AT_ONCE) {
+        for edges in edges.chunks(AT_ONCE) {
             // collects first, then calls: whether an edge is silhouette is unpredictable for the processor
             let (mut found, mut count) = ([0_u8; AT_ONCE], 0);
             for (at, edge) in edges.iter().enumerate() {
@@ -263,26 +229,13 @@ fn clumps_of_groups(clumps: &Clumps, groups: usize) -> Vec<u32> {
     clump_of
 }
 
-/// The first edge of each clump, and of those between two, in the order of clumps; one entry more.
-fn first_of_clumps(runs: &[EdgesAbove], clumps: usize) -> Vec<u32> {
-    let mut first = vec![0; clumps + 2];
-    for (_, clump) in runs.iter().flat_map(|run| &run.edges) {
-        first[*clump as usize + 1] += 1;
-    }
-    for at in 1..first.len() {
-        first[at] += first[at - 1];
-    }
-    first
-}
-
 /// The number of the mesh's edges for one task.
 const RUN: usize = 1 << 13;
 
 /// The part of some edges that is above the plane.
 #[derive(Default)]
 struct EdgesAbove {
-    /// With the clump of each; those between two have the index after the last.
-    edges: Vec<(Edge, u32)>,
+    edges: ClumpEdges,
     /// Where they cross the plane; these points follow the mesh's vertices.
     cuts: Vec<DVec3>,
     /// Faces that cross the plane, whether upwards, and at which point.
@@ -298,7 +251,7 @@ impl EdgesAbove {
         no_side: FaceSide,
         clump_of: &[u32],
     ) -> EdgesAbove {
-        let mut above = EdgesAbove { edges: Vec::with_capacity(run.len()), ..EdgesAbove::default() };
+        let mut above = EdgesAbove { edges: ClumpEdges::with_capacity(run.len()), ..EdgesAbove::default() };
         let clump = |sides: [FaceSide; 2]| {
             let [one, other] = sides.map(|side| clump_of[side.group()]);
             // a side without a face is in no clump
@@ -325,10 +278,10 @@ impl EdgesAbove {
             {
                 continue;
             }
-            above.edges.extend(faces.chunks(2).map(|pair| {
+            for pair in faces.chunks(2) {
                 let sides = [side(pair[0]), pair.get(1).map_or(no_side, |face| side(*face))];
-                (Edge { ends, sides }, clump(sides))
-            }));
+                above.edges.push(Edge { ends, sides }, clump(sides));
+            }
         }
         above
     }
@@ -343,43 +296,70 @@ pub(in crate::shadow) fn where_cut([one, other]: [DVec3; 2]) -> DVec3 {
 /// The group of every face, and the normal of every group. A group is faces that meet at edges and are coplanar, such
 /// as a whole wall.
 fn groups(mesh: &Mesh) -> (Vec<u32>, Vec<DVec3>) {
-    // corners are f32, so this is nearly exact
-    let normal = |face: &[u32; 3]| {
-        let [a, b, c] = face.map(|vertex| mesh.vertices[vertex as usize].as_dvec3());
-        (b - a).cross(c - a)
-    };
-    let of_faces: Vec<DVec3> = mesh.faces.par_iter().map(normal).collect();
-    let lie_in_one_plane = |edge: usize| {
-        let [one, other] = mesh.faces_at(edge) else { return false };
-        let [a, b] = [one, other].map(|face| of_faces[face.face() as usize]);
-        let sine_squared = a.cross(b).length_squared();
-        one.direction() != other.direction()
-            && a.dot(b) > 0.0
-            && sine_squared <= SAME_PLANE * SAME_PLANE * a.length_squared() * b.length_squared()
-    };
-    let edges = (0..mesh.edges.len()).into_par_iter().with_min_len(RUN);
-    let flat: Vec<bool> = edges.map(lie_in_one_plane).collect();
-    let mut above: Vec<u32> = (0..mesh.faces.len() as u32).collect();
-    for (edge, _) in flat.iter().enumerate().filter(|(_, is_flat)| **is_flat) {
-        let [one, other] = [0, 1].map(|at| lowest(&mut above, mesh.faces_at(edge)[at].face()));
-        above[one.max(other) as usize] = one.min(other);
-    }
-    // the largest face's normal represents the group
-    let mut group_of = vec![0; mesh.faces.len()];
-    let mut normals: Vec<DVec3> = Vec::new();
-    for face in 0..mesh.faces.len() {
-        let first = lowest(&mut above, face as u32) as usize;
-        if first == face {
-            group_of[face] = normals.len() as u32;
-            normals.push(of_faces[face]);
-        } else {
-            let group = group_of[first];
-            group_of[face] = group;
-            let normal = &mut normals[group as usize];
-            if of_faces[face].length_squared() > normal.length_squared() {
-                *normal = of_faces[face];
-            }
-        }
+    let of_blocks: Vec<BlockGroups> = mesh.blocks().par_iter().map(|block| BlockGroups::of(mesh, block)).collect();
+    let mut group_of = Vec::with_capacity(mesh.faces.len());
+    let mut normals = Vec::with_capacity(of_blocks.iter().map(|block| block.normals.len()).sum());
+    for block in of_blocks {
+        let before = normals.len() as u32;
+        group_of.extend(block.group_of.iter().map(|group| before + group));
+        normals.extend(block.normals);
     }
     (group_of, normals)
+}
+
+/// The groups of a block's faces, counted from 0.
+struct BlockGroups {
+    group_of: Vec<u32>,
+    normals: Vec<DVec3>,
+}
+
+impl BlockGroups {
+    fn of(mesh: &Mesh, block: &MeshBlock) -> BlockGroups {
+        let before = block.faces.start;
+        // corners are f32, so this is nearly exact
+        let normal = |face: &[u32; 3]| {
+            let [a, b, c] = face.map(|vertex| mesh.vertices[vertex as usize].as_dvec3());
+            (b - a).cross(c - a)
+        };
+        let faces = mesh.faces[before as usize..block.faces.end as usize].par_iter().with_min_len(RUN);
+        let of_faces: Vec<DVec3> = faces.map(normal).collect();
+        let lie_in_one_plane = |edge: u32| {
+            let [one, other] = mesh.faces_at(edge as usize) else { return false };
+            let [a, b] = [one, other].map(|face| of_faces[(face.face() - before) as usize]);
+            one.direction() != other.direction()
+                && a.dot(b) > 0.0
+                && a.cross(b).length_squared() <= SAME_PLANE * SAME_PLANE * a.length_squared() * b.length_squared()
+        };
+        let edges = block.edges.clone().into_par_iter().with_min_len(RUN);
+        let flat: Vec<bool> = edges.map(lie_in_one_plane).collect();
+        let mut above: Vec<u32> = (0..of_faces.len() as u32).collect();
+        for (edge, _) in block.edges.clone().zip(&flat).filter(|(_, is_flat)| **is_flat) {
+            let face = |at: usize| mesh.faces_at(edge as usize)[at].face() - before;
+            let [one, other] = [0, 1].map(|at| lowest(&mut above, face(at)));
+            above[one.max(other) as usize] = one.min(other);
+        }
+        Self::numbered(&of_faces, above)
+    }
+
+    /// Numbers the groups in the order of their first faces, to which `above` leads. The largest face's normal
+    /// represents the group.
+    fn numbered(of_faces: &[DVec3], mut above: Vec<u32>) -> BlockGroups {
+        let mut normals: Vec<DVec3> = Vec::new();
+        let mut group_of = vec![0; above.len()];
+        for face in 0..above.len() {
+            let first = lowest(&mut above, face as u32) as usize;
+            if first == face {
+                group_of[face] = normals.len() as u32;
+                normals.push(of_faces[face]);
+            } else {
+                let group = group_of[first];
+                group_of[face] = group;
+                let normal = &mut normals[group as usize];
+                if of_faces[face].length_squared() > normal.length_squared() {
+                    *normal = of_faces[face];
+                }
+            }
+        }
+        BlockGroups { group_of, normals }
+    }
 }

@@ -13,6 +13,7 @@
 
 mod casters;
 mod clumps;
+mod edges;
 mod scan;
 
 pub(super) use casters::where_cut;

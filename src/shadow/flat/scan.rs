@@ -1,7 +1,8 @@
 //! Fills rows of bits from a silhouette: edges mark where they cross rows, and sums run along the rows.
 
-use super::casters::{Casters, FaceSide, FallingEdge};
+use super::casters::{Casters, FallingEdge};
 use super::clumps::RasterBounds;
+use super::edges::FaceSide;
 use crate::view::Bits;
 use glam::DVec3;
 use rayon::prelude::*;
