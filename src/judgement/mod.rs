@@ -17,4 +17,4 @@ pub use counted_parts::CountedParts;
 pub use lit_spell::{LitSpell, SpellBound, both, clipped, spells_of};
 pub use opening::{Opening, WindowSpot, needed_of_window, window_spot};
 pub use plot_lines::{DeemedBorder, PlotSpot};
-pub use triangles::{PartTriangle, triangles};
+pub use triangles::{PartTriangle, triangles, triangles_of_faces};

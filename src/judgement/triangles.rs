@@ -61,6 +61,6 @@ fn on([below, above]: &[DVec2; 2], y: f64) -> DVec2 {
 }
 
 /// The triangles of a component's upper faces.
-pub(super) fn triangles_of_faces(faces: &[[DVec3; 3]]) -> Vec<PartTriangle> {
+pub fn triangles_of_faces(faces: &[[DVec3; 3]]) -> Vec<PartTriangle> {
     faces.iter().filter_map(|corners| PartTriangle::new(*corners, true)).collect()
 }

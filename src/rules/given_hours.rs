@@ -11,8 +11,14 @@ use super::spell::Spell;
 use crate::sun::{DayWindow, Sunrise};
 
 /// The point of a window that must keep given hours: the middle of the window, in the wall's outer plane.
-const WINDOW: RuleReceiver =
-    RuleReceiver::Window { at: WindowPoint::MiddleOutside, floor_m: 0.0, sill_m: 0.0, group: None, all_of: Vec::new() };
+const WINDOW: RuleReceiver = RuleReceiver::Window {
+    at: WindowPoint::MiddleOutside,
+    floor_m: 0.0,
+    sill_m: 0.0,
+    group: None,
+    all_of: Vec::new(),
+    open_spaces: None,
+};
 
 /// What keeps given hours, in the order in which it is searched.
 pub const KEEP_HOURS: [RuleReceiver; 3] = [WINDOW, RuleReceiver::Facade, RuleReceiver::Area { least_width_m: 0.0 }];

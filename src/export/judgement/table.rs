@@ -6,7 +6,7 @@ use super::rows::{ReceiverRow, TakerRow, group_said, receiver_row, taker_row};
 use super::rule_report::clock_word;
 use crate::judgement::{ERROR_ODDS, Judgement, Taker};
 use crate::message::few;
-use crate::rules::RuleReceiver, Verdict;
+use crate::rules::{RuleReceiver, Verdict};
 use crate::site::JudgedSite;
 use std::fmt::Write;
 

@@ -18,8 +18,8 @@ mod rings;
 mod rooms;
 mod windows;
 
-pub(crate) use load::judged_with_models;
 pub use days::study_days;
+pub(crate) use load::judged_with_models;
 pub use load::load_judged;
 pub use request::{AreaSurface, JudgedArea, JudgedFacade, JudgedPlot, JudgedSite, JudgedState, JudgedWindow, PlotSide};
 #[cfg(feature = "desktop")]
