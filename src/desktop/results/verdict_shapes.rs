@@ -72,8 +72,13 @@ impl VerdictShapes {
     pub(in crate::desktop) fn of_receivers(site: &JudgedSite, judgement: &Judgement) -> VerdictShapes {
         let (rule, mut shapes) = (&judgement.rule, VerdictShapes::default());
         match &rule.receiver {
-            RuleReceiver::Area { .. } => shapes.add_areas(site),
-            RuleReceiver::Window { .. } => shapes.add_windows(&site.windows),
+            RuleReceiver::Area { .. } => shapes.add_areas(site, &site.areas.iter().collect::<Vec<_>>()),
+            RuleReceiver::Window { open_spaces, .. } => {
+                shapes.add_windows(&site.windows);
+                // open spaces of dwellings come after all windows
+                let spaces = site.areas.iter().filter(|area| open_spaces.is_some() && area.dwelling.is_some());
+                shapes.add_areas(site, &spaces.collect::<Vec<_>>());
+            }
             // façades and bands without a point have no verdict
             RuleReceiver::Facade => {
                 for receiver in &judgement.receivers {
@@ -96,7 +101,7 @@ impl VerdictShapes {
     /// Everything that the site file says is judged, whatever a rule takes of it.
     pub(in crate::desktop) fn of_site(site: &JudgedSite) -> VerdictShapes {
         let mut shapes = VerdictShapes::default();
-        shapes.add_areas(site);
+        shapes.add_areas(site, &site.areas.iter().collect::<Vec<_>>());
         site.facades.iter().for_each(|facade| shapes.add(dots(facade), None));
         shapes.add_windows(&site.windows);
         if let Some(plot) = &site.plot {
@@ -119,12 +124,12 @@ impl VerdictShapes {
         self.extents.push(ShapeExtent { middle: (low + high) / 2.0, size_m: (high - low).length(), normal });
     }
 
-    fn add_areas(&mut self, site: &JudgedSite) {
-        let parts: Vec<Vec<PartTriangle>> = site.areas.iter().map(parts).collect();
+    fn add_areas(&mut self, site: &JudgedSite, areas: &[&JudgedArea]) {
+        let parts: Vec<Vec<PartTriangle>> = areas.iter().map(|area| parts(area)).collect();
         let corners = || parts.iter().flatten().flat_map(|part| part.corners);
         let heights = GroundHeights::of(&site.now.mesh, &site.now.ground, &corners().collect::<Vec<_>>());
         let all_m2: f64 = parts.iter().flatten().map(|part| part.m2).sum();
-        for (area, parts) in site.areas.iter().zip(parts) {
+        for (area, parts) in areas.iter().zip(parts) {
             let m2: f64 = parts.iter().map(|part| part.m2).sum();
             let longest = (m2.sqrt() / PIECES_ACROSS).max((all_m2 / MOST_PIECES).sqrt()).max(1e-3);
             let place = |corner: DVec3| match area.surface {
