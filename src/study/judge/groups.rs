@@ -131,8 +131,8 @@ fn dwellings(judged: &WindowsJudged<'_>, rooms: &[GroupRuling]) -> Result<Vec<Gr
     Ok(groups)
 }
 
-/// Judges the house by its dwellings, each with its uses.
-fn house(judged: &WindowsJudged<'_>, all_of: &[String]) -> Result<Vec<GroupRuling>, StudyError> {
+/// The dwellings that windows and open spaces belong to, in their order.
+fn dwelling_names<'a>(judged: &WindowsJudged<'a>) -> Vec<&'a str> {
     let mut names: Vec<&str> = Vec::new();
     let of_windows = judged.windows.iter().filter_map(|window| window.dwelling.as_deref());
     for dwelling in of_windows.chain(judged.open_spaces.iter().map(|(dwelling, _)| dwelling.as_str())) {
@@ -140,6 +140,12 @@ fn house(judged: &WindowsJudged<'_>, all_of: &[String]) -> Result<Vec<GroupRulin
             names.push(dwelling);
         }
     }
+    names
+}
+
+/// Judges the house by its dwellings, each with its uses.
+fn house(judged: &WindowsJudged<'_>, all_of: &[String]) -> Result<Vec<GroupRuling>, StudyError> {
+    let names = dwelling_names(judged);
     let RuleReceiver::Window { open_spaces, .. } = &judged.rule.receiver else { return Ok(Vec::new()) };
     let criteria: Vec<usize> =
         (0..judged.rule.criteria.len()).filter(|number| judged.rule.criteria[*number].is_of_dwellings()).collect();
