@@ -10,7 +10,7 @@ use crate::mesh::Mesh;
 use crate::shadow::ray_cast::{RayCaster, Shear};
 use crate::sun::{Air, DayWindow, Instant, Place, SunError};
 use rayon::prelude::*;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 /// Several days, prepared once for all probes.
 pub struct SearchedDays<'a> {
@@ -37,6 +37,8 @@ pub struct ProbeSearch {
     tree: FaceTree,
     /// The number of probe-days that were decided second by second, because two answers disagreed.
     distrusted: AtomicUsize,
+    /// The number of tests of faces against parts of the sky.
+    tested: AtomicU64,
 }
 
 impl ProbeSearch {
@@ -45,7 +47,7 @@ impl ProbeSearch {
         let reach = points.iter().map(|at| (at.point - casters.origin).abs().max_element());
         let reach = reach.fold(0.0, f64::max);
         let (rays, tree) = rayon::join(|| RayCaster::new(&casters, reach), || FaceTree::new(&casters));
-        ProbeSearch { casters, rays, tree, distrusted: AtomicUsize::new(0) }
+        ProbeSearch { casters, rays, tree, distrusted: AtomicUsize::new(0), tested: AtomicU64::new(0) }
     }
 
     /// Returns the names of the components that cast.
@@ -59,6 +61,12 @@ impl ProbeSearch {
         self.distrusted.load(Ordering::Relaxed)
     }
 
+    /// Returns the number of tests of faces against parts of the sky.
+    #[cfg(feature = "test-hooks")]
+    pub fn tested(&self) -> u64 {
+        self.tested.load(Ordering::Relaxed)
+    }
+
     /// Returns a probe's intervals on each of the days.
     ///
     /// # Errors
@@ -68,7 +76,8 @@ impl ProbeSearch {
             return Ok(vec![Vec::new(); days.paths.len()]);
         }
         let local = at.point - self.casters.origin;
-        let shades = shades(&self.tree, &days.cells, &days.paths, (local, at.normal));
+        let (shades, tested) = shades(&self.tree, &days.cells, &days.paths, (local, at.normal));
+        self.tested.fetch_add(tested, Ordering::Relaxed);
         days.paths.iter().zip(shades).map(|(path, shade)| self.of_day(at, path, shade)).collect()
     }
 

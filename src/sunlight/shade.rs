@@ -44,23 +44,27 @@ struct Descent<'a> {
     reaching: Vec<Candidate>,
     faces: Vec<SeenFace>,
     shades: Vec<Shade>,
+    /// The number of tests of faces against cells and slots.
+    tested: u64,
 }
 
-/// The shade of a probe on each of several days; `point` is relative to the mesh's origin.
+/// The shade of a probe on each of several days, and the number of tests of faces; `point` is relative to the mesh's
+/// origin.
 pub(super) fn shades(
     tree: &FaceTree,
     cells: &SunCells,
     paths: &[SunPath<'_>],
     (point, normal): (DVec3, Option<DVec3>),
-) -> Vec<Shade> {
+) -> (Vec<Shade>, u64) {
     let behind = normal.map(|normal| Halfspace { normal: -normal, slack: 1e-15 });
     let shades = vec![Shade::default(); paths.len()];
-    let mut descent = Descent { tree, cells, paths, point, behind, reaching: Vec::new(), faces: Vec::new(), shades };
+    let (reaching, faces) = (Vec::new(), Vec::new());
+    let mut descent = Descent { tree, cells, paths, point, behind, reaching, faces, shades, tested: 0 };
     descent.reaching.extend(tree.root().map(Candidate::Box));
     if let Some(root) = cells.root {
         descent.descend(root, 0, normal.is_none());
     }
-    descent.shades
+    (descent.shades, descent.tested)
 }
 
 impl<'a> Descent<'a> {
@@ -117,11 +121,14 @@ impl<'a> Descent<'a> {
         let mut open: Vec<u32> = Vec::new();
         for at in of {
             match self.reaching[at] {
-                Candidate::Face(face) => match self.faces[face as usize].coverage(pyramid) {
-                    SunCoverage::Full => return true,
-                    SunCoverage::Part => self.reaching.push(Candidate::Face(face)),
-                    SunCoverage::None => {}
-                },
+                Candidate::Face(face) => {
+                    self.tested += 1;
+                    match self.faces[face as usize].coverage(pyramid) {
+                        SunCoverage::Full => return true,
+                        SunCoverage::Part => self.reaching.push(Candidate::Face(face)),
+                        SunCoverage::None => {}
+                    }
+                }
                 Candidate::Box(at) => open.push(at),
             }
             while let Some(at) = open.pop() {
@@ -148,6 +155,7 @@ impl<'a> Descent<'a> {
 
     /// Adds a face if it reaches a pyramid. Returns whether it fills it.
     fn add_face(&mut self, corners: &[Vec3; 3], pyramid: &SunPyramid) -> bool {
+        self.tested += 1;
         let face = SeenFace::new(corners, self.point);
         let coverage = face.coverage(pyramid);
         if coverage == SunCoverage::Part {
@@ -161,7 +169,7 @@ impl<'a> Descent<'a> {
     fn look_at_slot(&mut self, cell: &SunCell, pyramid: &SunPyramid, reaching: Range<usize>, is_before: bool) {
         let path = &self.paths[cell.days.start];
         let shade = &mut self.shades[cell.days.start];
-        let (tree, point, faces) = (self.tree, self.point, &self.faces);
+        let (tree, point, faces, tested) = (self.tree, self.point, &self.faces, &mut self.tested);
         let mut open = OpenSeconds::new(path, cell.slots.start, pyramid);
         if let Some(behind) = self.behind.filter(|_| !is_before) {
             open.take(&[behind], [f64::NEG_INFINITY, f64::INFINITY], shade);
@@ -179,6 +187,7 @@ impl<'a> Descent<'a> {
             }
             let at = match next {
                 Candidate::Face(face) => {
+                    *tested += 1;
                     open.shade(&faces[face as usize], shade);
                     continue;
                 }
@@ -197,6 +206,7 @@ impl<'a> Descent<'a> {
                     left.extend(two);
                 }
                 BoxContents::Faces(faces) => {
+                    *tested += faces.len() as u64;
                     faces.iter().for_each(|corners| open.shade(&SeenFace::new(corners, point), shade));
                 }
             }
