@@ -58,7 +58,8 @@ impl<'a> SmoothSky<'a> {
     pub fn new(sky: Sky<'a>, [from, to]: [DateTime<Utc>; 2]) -> Result<SmoothSky<'a>, SunError> {
         let first = from.timestamp().div_euclid(STEP_SECS);
         let last = to.timestamp().div_euclid(STEP_SECS) + 1;
-        let count = ((last - first + LONGEST - 1) / LONGEST).max(1);
+        // nothing is asked of a day without sun
+        let count = if from < to { (last - first + LONGEST - 1) / LONGEST } else { 0 };
         let bound = |index: i64| first + (last - first) * index / count;
         let mut smooth = SmoothSky { sky, stretches: Vec::new() };
         for index in 0..count {
