@@ -12,7 +12,8 @@ The programs of others are for the reader to install. Two kinds have options of 
 with MODE mask, hours or top. Any other program joins with --peer, where COMMAND may use {glb}, {suns} (a line for each
 instant: the unit vector to the sun, x east, y north, z up), {n} (cells a side), {threads}, {test} (T1 to T4) and {out}.
 
-T4 has a further row of Gnomon by rays alone. Behind the letters come other tests: minutes, eight hours by the minute on
+Gnomon's hours are those of the instants alone, as the others' are (--resolution step); T2 and T4 have a further row with
+hours to the minute, and T4 one of rays alone. Behind the letters come other tests: minutes, eight hours by the minute on
 the highest surface; low, one instant there with the sun at 0.008°, beside one at noon; and, on the sample site
 headquarters and by Gnomon alone, probes, points on façades and a year, one and 200 (--points FILE.csv for others), and
 facades, January on surfaces with texels of a metre and a step of 15 minutes (--facade-days 365 for the whole year,
@@ -39,19 +40,17 @@ region = [-400, -400, 400, 400]
 """
 T2 = "--date 2026-09-18 --from 07:00 --to 15:00 --step 1h"
 YEAR = "--from-date 2026-01-01 --to-date 2026-12-31 --step 1h"
+MINUTES = "--date 2026-09-18 --from 07:00 --to 15:00 --step 1min"
+PROFILE = "profile {site} {study}"
+HOURS = f"{PROFILE} --write tif,json"
 # test: cells a side, the study, what Gnomon is asked, the raster's program and Embree's
 TESTS = {
     "T1": (2048, "--at 2026-09-18T13:00", "shadow {site} {study} --size 2048 --receivers ground --mask {out}.png", "mask"),
-    "T2": (2048, T2, "profile {site} {study} --size 2048 --receivers ground --out {out}", "mask"),
-    "T2 tif,json": (2048, T2, "profile {site} {study} --size 2048 --receivers ground --write tif,json --out {out}", "mask"),
-    "T3": (1024, YEAR, "profile {site} {study} --size 1024 --receivers ground --write tif,json --out {out}", "hours"),
-    "T4": (2048, T2, "profile {site} {study} --size 2048 --receivers top --write tif,json --out {out}", "top"),
-    "minutes": (
-        2048,
-        "--date 2026-09-18 --from 07:00 --to 15:00 --step 1min",
-        "profile {site} {study} --size 2048 --receivers top --write tif,json --out {out}",
-        "top",
-    ),
+    "T2": (2048, T2, f"{PROFILE} --size 2048 --receivers ground --resolution step --out {{out}}", "mask"),
+    "T2 tif,json": (2048, T2, f"{HOURS} --size 2048 --receivers ground --resolution step --out {{out}}", "mask"),
+    "T3": (1024, YEAR, f"{HOURS} --size 1024 --receivers ground --resolution step --out {{out}}", "hours"),
+    "T4": (2048, T2, f"{HOURS} --size 2048 --receivers top --resolution step --out {{out}}", "top"),
+    "minutes": (2048, MINUTES, f"{HOURS} --size 2048 --receivers top --resolution step --out {{out}}", "top"),
     "low": (2048, "--at 2026-09-18T04:40:29", "shadow {site} {study} --size 2048 --receivers top --mask {out}.png", "top"),
     "low, noon": (
         2048,
@@ -60,7 +59,14 @@ TESTS = {
         "top",
     ),
 }
-BY_RAYS = {"T4": "profile {site} {study} --size 2048 --receivers top --technique ray-cast --write tif,json --out {out}"}
+# what else Gnomon is asked in the same table
+FURTHER = {
+    "T2 tif,json": {"Gnomon, hours to the minute": HOURS + " --size 2048 --receivers ground --resolution 1min --out {out}"},
+    "T4": {
+        "Gnomon, rays": HOURS + " --size 2048 --receivers top --technique ray-cast --resolution step --out {out}",
+        "Gnomon, hours to the minute": HOURS + " --size 2048 --receivers top --resolution 1min --out {out}",
+    },
+}
 HEADQUARTERS = HERE.parents[1] / "sites/headquarters"
 
 
@@ -98,8 +104,8 @@ def compare(asked, glb, folder):
         fill = dict(glb=glb, suns=suns, n=cells, threads=asked.threads, site=site, study=study, test=test.split()[0])
         ours = gnomon.format(command=command.format(out=folder / "gnomon", **fill))
         commands = {"Gnomon": ours}
-        if test in BY_RAYS:
-            commands["Gnomon, rays"] = gnomon.format(command=BY_RAYS[test].format(out=folder / "rays", **fill))
+        for name, further in FURTHER.get(test, {}).items():
+            commands[name] = gnomon.format(command=further.format(out=folder / "further", **fill))
         raster = f"{fill['glb']} {suns} {cells} {REGION[0]} {REGION[1]} {REGION[2]} {asked.threads}"
         if asked.raster and mode != "top":
             commands["plain raster"] = f"{asked.raster} {raster} {mode} {folder / 'raster.bin'}"
