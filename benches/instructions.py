@@ -14,7 +14,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 RECORD = ROOT / "docs/benchmarks/counts.md"
 TOLERANCE = 0.05
-STUDY = "--engine cpu --size 512 --step 2h --quiet --threads 1 --out {out}"
+STUDY = "--engine cpu --size 512 --step 2h --resolution step --quiet --threads 1 --out {out}"
 COMMANDS = {
     "load headquarters": "check sites/headquarters --threads 1",
     "ground, 3 instants": f"profile sites/tower --receivers ground --write json {STUDY}",

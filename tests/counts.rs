@@ -2,7 +2,9 @@
 //! technique that begins to visit twice as much is noticed even on a busy machine.
 
 use crate::shared::drawing::gpu;
-use gnomon::choice::{MAP_SIZE, Receivers};
+use chrono::NaiveDate;
+use glam::dvec3;
+use gnomon::choice::{Engine, MAP_SIZE, Receivers};
 use gnomon::formats;
 use gnomon::shadow::hybrid::Hybrid;
 use gnomon::shadow::ray_cast::RayCast;
@@ -10,8 +12,12 @@ use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::{Scene, Technique};
 use gnomon::silhouette::ProcessorFinder;
 use gnomon::site::{Overrides, Site};
+use gnomon::study;
+use gnomon::sun::{DayWindow, SunTrack};
+use gnomon::sunlight::{JudgedPoint, ProbeSearch, SearchedDays};
 use gnomon::view::View;
 use std::cell::Cell;
+use std::ops::ControlFlow;
 use std::path::Path;
 
 const RECORD: &str = include_str!("../docs/benchmarks/counts.md");
@@ -69,7 +75,38 @@ fn counts(name: &str) -> Counts {
         reached += hybrid.counted(sun).unwrap().unwrap().reached.iter().map(|&it| u64::from(it)).sum::<u64>();
     }
     counts.extend([("fragments of the stencil", all), ("fragments that the hybrid's mask lets through", reached)]);
+    counts.push(("rays by which surfaces' changes are halved", halving_rays(&site)));
+    counts.push(("faces tested by the search of a year", faces_of_a_year(&site)));
     counts
+}
+
+/// The rays that find when texels of 4 m change between the study's instants, without those at the instants.
+fn halving_rays(site: &Site) -> u64 {
+    let rays = |resolution_secs: u32| {
+        let track = SunTrack { resolution_secs, ..site.track.clone() };
+        let site = Site { engine: Engine::Cpu, track, ..site.clone() };
+        study::patches(&site, 4.0, &mut |_| ControlFlow::Continue(())).unwrap().judged.rays
+    };
+    rays(60) - rays(0)
+}
+
+/// The tests of faces for the intervals of four points beside the models on all days of a year.
+fn faces_of_a_year(site: &Site) -> u64 {
+    let (low, high) = site.mesh.bounds().unwrap();
+    let point = |[east, north]: [f64; 2]| {
+        let at = low + (high - low) * dvec3(east, north, 0.0);
+        JudgedPoint { point: at.with_z(site.ground.level + 1.7), normal: None, below_ground_m: None }
+    };
+    let points = [[0.2, 0.3], [0.7, 0.2], [0.4, 0.8], [0.9, 0.9]].map(point);
+    let search = ProbeSearch::new(site.mesh.of_components(&site.casts), &points);
+    let first = NaiveDate::from_ymd_opt(2026, 1, 1).unwrap();
+    let window = |date: NaiveDate| DayWindow::on(&site.place, date, None, None).unwrap();
+    let windows: Vec<DayWindow> = first.iter_days().take(365).map(window).collect();
+    for windows in windows.chunks(32) {
+        let days = SearchedDays::new(&site.place, windows, None).unwrap();
+        points.iter().for_each(|at| drop(search.intervals(at, &days).unwrap()));
+    }
+    search.tested()
 }
 
 /// The recorded counts of all sites, by name, in the order of the table.

@@ -72,7 +72,7 @@ fn memory_holds_what_a_folder_gets() {
         ..ProfileRequest::of(Stopwatch::start())
     };
     let whole = ProfileRequest { lines: &[Lines::Hours, Lines::Outlines], masks: Some(&masks), ..all.clone() };
-    let in_tiles = ProfileRequest { memory: Some(400 << 10), ..all };
+    let in_tiles = ProfileRequest { memory: Some(500 << 10), ..all };
     for (asked, is_in_tiles) in [(whole, false), (in_tiles, true)] {
         let (by_folder, tiles) = of(&asked, Sink::Folder(inside(&out)));
         assert_eq!(tiles > 1, is_in_tiles, "{tiles} tiles");

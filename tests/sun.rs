@@ -1,6 +1,8 @@
 //! The sun against independent sources: NREL's paper, pvlib's SPA, the US Naval Observatory; then local time and
 //! windows.
 
+mod smooth;
+
 use chrono::{DateTime, NaiveDate, NaiveTime, Timelike, Utc};
 use gnomon::sun::{
     Air, Day, Place, Reading, SunError, SunTrack, Window, Zone, delta_t_secs, parse_duration_secs, position,

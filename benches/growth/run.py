@@ -110,8 +110,9 @@ def city(model, copies, folder):
 
 
 def row(asked, folder, name, times, size, receivers, region, budget, first):
-    command = [asked.gnomon, "profile", folder, *WINDOW.split(), "--size", str(size), "--receivers", receivers, "--engine",
-               "cpu", "--threads", str(asked.threads), "--write", "json", "--quiet", "--out", folder / "out", *budget]
+    command = [asked.gnomon, "profile", folder, *WINDOW.split(), "--size", str(size), "--receivers", receivers]
+    command += ["--resolution", "step", "--engine", "cpu", "--threads", str(asked.threads), "--write", "json", "--quiet"]
+    command += ["--out", folder / "out", *budget]
     turns = [[run([*command, "--step", step], folder) for step, _ in STEPS] for _ in range(asked.runs)]
     few, many = [[statistics.median(turn[at][of] for turn in turns) for of in range(3)] for at in (0, 1)]
     an_instant = statistics.median(turn[1][1] - turn[0][1] for turn in turns) / (STEPS[1][1] - STEPS[0][1]) * 1e3

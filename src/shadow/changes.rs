@@ -12,8 +12,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// The rows of a plan that one task searches.
-const BAND: usize = 32;
+/// The rows of a plan that one task searches: a row of squares, so that also a small part of a plan in which every cell
+/// changes is shared out.
+const BAND: usize = SIDE;
 /// The side of the squares of cells that are searched together, with as many cells as a beam has rays.
 const SIDE: usize = 8;
 /// The number of cells in a square.

@@ -98,14 +98,20 @@ impl Machine {
             (_, Some(_), _) => 64,
         };
         // bits of both ends of a gap and of what they have in common; the changes of a part of the cells
-        let search = if searches && self.gpu.is_none() { 2 + SEARCH_BYTES[0] } else { 0 };
+        let search = if searches && self.searches_cells(subject) { 2 + SEARCH_BYTES[0] } else { 0 };
         // bits twice; fragments as they are summed, and as they are read back
         drawing + search + u64::from(wants.bits) + if wants.statistics { 32 } else { 0 }
     }
 
     /// The memory for a column of the plan besides that for its cells, bytes.
-    pub(super) fn column_bytes(&self, searches: bool) -> u64 {
-        if searches && self.gpu.is_none() { SEARCH_BYTES[1] } else { 0 }
+    pub(super) fn column_bytes(&self, subject: Subject, searches: bool) -> u64 {
+        if searches && self.searches_cells(subject) { SEARCH_BYTES[1] } else { 0 }
+    }
+
+    /// Whether times of change are searched cell by cell, and not by drawing all moments.
+    fn searches_cells(&self, subject: Subject) -> bool {
+        let draws_whole = self.method == Method::Projected && subject == Subject::Ground;
+        self.gpu.is_none() && !draws_whole
     }
 
     /// The greatest number of columns and rows that can be drawn at once.

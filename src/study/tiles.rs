@@ -26,7 +26,7 @@ pub(super) fn of(site: &Site, machine: &Machine, wants: &Wants, day_secs: u32) -
     let cell_bytes = machine.cell_bytes(subject, wants, searches) + long;
     let (most, columns) = columns(grid, machine);
     let row_bytes = u64::from(columns) * cell_bytes;
-    let tile_bytes = u64::from(columns) * machine.column_bytes(searches);
+    let tile_bytes = u64::from(columns) * machine.column_bytes(subject, searches);
     let rows = match wants.budget {
         None => most,
         Some(Budget { bytes, drawing }) => {

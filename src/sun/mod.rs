@@ -14,6 +14,7 @@ mod reading;
 mod rules;
 mod season;
 mod sky;
+mod smooth_sky;
 mod track;
 mod true_solar;
 mod tz_version;
@@ -44,6 +45,8 @@ pub use rules::{ZoneRules, zone_names};
 pub use season::{Season, apparent_longitude_deg};
 #[doc(hidden)]
 pub use sky::{HorizonCrossings, Sky};
+#[doc(hidden)]
+pub use smooth_sky::SmoothSky;
 pub use track::{EachDay, SunTrack};
 #[doc(hidden)]
 pub use true_solar::true_solar;

@@ -1,6 +1,6 @@
 //! The sun's position at a place, and its rises and sets between two instants.
 
-use super::{Air, Instant, Place, SunError, Zone, position};
+use super::{Air, Instant, Place, Position, SunError, Zone, position};
 use chrono::{DateTime, TimeDelta};
 
 /// Everything that the sun's position in a study depends on.
@@ -32,7 +32,11 @@ impl Sky<'_> {
     /// # Errors
     /// As for [`position()`].
     pub fn at(&self, time: DateTime<Zone>) -> Result<Instant, SunError> {
-        let seen = position(self.place, time.to_utc(), self.delta_t_secs, self.air)?;
+        Ok(Self::seen(time, &position(self.place, time.to_utc(), self.delta_t_secs, self.air)?))
+    }
+
+    /// A position at a time.
+    pub(super) fn seen(time: DateTime<Zone>, seen: &Position) -> Instant {
         let mut instant = Instant {
             time,
             to_sun: seen.to_sun(),
@@ -43,7 +47,7 @@ impl Sky<'_> {
             night: false,
         };
         instant.night = instant.altitude_deg() < 0.0;
-        Ok(instant)
+        instant
     }
 
     /// Returns the first seconds of day after night, and of night after day, between two instants.

@@ -14,7 +14,7 @@ use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 use rustc_hash::FxHashSet;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 /// If there are no more days than this, the exact suns of their seconds are kept.
 const MOST_DAYS_KEPT: usize = 16;
@@ -49,6 +49,8 @@ pub struct ProbeSearch {
     trees: Vec<Arc<FaceTree>>,
     /// The number of probe-days that were decided second by second, because two answers disagreed.
     distrusted: AtomicUsize,
+    /// The number of tests of faces against parts of the sky.
+    tested: AtomicU64,
 }
 
 /// The corners of each face.
@@ -80,7 +82,13 @@ impl ProbeSearch {
     pub fn new(casters: Mesh, points: &[JudgedPoint]) -> ProbeSearch {
         let faces = corners(&casters).collect::<Vec<_>>();
         let (rays, tree) = rayon::join(|| rays(&casters, points), || FaceTree::new(&faces));
-        ProbeSearch { casters, rays, trees: vec![Arc::new(tree)], distrusted: AtomicUsize::new(0) }
+        ProbeSearch {
+            casters,
+            rays,
+            trees: vec![Arc::new(tree)],
+            distrusted: AtomicUsize::new(0),
+            tested: AtomicU64::new(0),
+        }
     }
 
     /// Prepares the searches of two states. What casts in both is searched once for both, if the points are the same.
@@ -99,6 +107,7 @@ impl ProbeSearch {
             casters,
             trees: vec![Arc::clone(&both), Arc::new(FaceTree::new(own))],
             distrusted: AtomicUsize::new(0),
+            tested: AtomicU64::new(0),
         };
         let [one, other] = states;
         let (one, other) = rayon::join(|| search(one, &own), || search(other, &of_other));
@@ -114,6 +123,12 @@ impl ProbeSearch {
     #[cfg(feature = "test-hooks")]
     pub fn distrusted(&self) -> usize {
         self.distrusted.load(Ordering::Relaxed)
+    }
+
+    /// Returns the number of tests of faces against parts of the sky.
+    #[cfg(feature = "test-hooks")]
+    pub fn tested(&self) -> u64 {
+        self.tested.load(Ordering::Relaxed)
     }
 
     /// Returns a probe's intervals on each of the days.
@@ -162,7 +177,9 @@ impl ProbeSearch {
 
     /// The shade of the first tree, on each day.
     fn first_shades(&self, at: &SearchedPoint, days: &SearchedDays<'_>) -> Vec<Shade> {
-        let mut found = shades(&self.trees[0], &days.cells, &days.paths, (at.local, at.normal, at.front), &[]);
+        let (mut found, tested) =
+            shades(&self.trees[0], &days.cells, &days.paths, (at.local, at.normal, at.front), &[]);
+        self.tested.fetch_add(tested, Ordering::Relaxed);
         found.iter_mut().for_each(Shade::put_in_order);
         found
     }
@@ -176,7 +193,8 @@ impl ProbeSearch {
     ) -> Result<Vec<Vec<Interval>>, SunError> {
         for tree in &self.trees[1..] {
             let known: Vec<Vec<[Second; 2]>> = found.iter().map(|shade| shade.dark.clone()).collect();
-            let more = shades(tree, &days.cells, &days.paths, (at.local, None, at.front), &known);
+            let (more, tested) = shades(tree, &days.cells, &days.paths, (at.local, None, at.front), &known);
+            self.tested.fetch_add(tested, Ordering::Relaxed);
             for (shade, more) in found.iter_mut().zip(more) {
                 shade.add(more);
             }

@@ -76,9 +76,11 @@ struct Descent<'a> {
     /// For each day, runs of seconds that are known to be dark, in their order; empty if nothing is known.
     known: &'a [Vec<[Second; 2]>],
     shades: Vec<Shade>,
+    /// The number of tests of faces against cells and slots.
+    tested: u64,
 }
 
-/// The shade of a probe on each of several days; `point` and `front` are relative to the mesh's origin. Seconds that are
+/// The shade of a probe on each of several days, and the number of tests of faces; `point` and `front` are relative to the mesh's origin. Seconds that are
 /// known to be dark are passed over: for each day their runs, in their order.
 pub(super) fn shades(
     tree: &FaceTree,
@@ -86,16 +88,16 @@ pub(super) fn shades(
     paths: &[SunPath<'_>],
     (point, normal, front): (DVec3, Option<DVec3>, Option<WallFront>),
     known: &[Vec<[Second; 2]>],
-) -> Vec<Shade> {
+) -> (Vec<Shade>, u64) {
     let behind = normal.map(|normal| Halfspace { normal: -normal, slack: 1e-15 });
     let shades = vec![Shade::default(); paths.len()];
     let (reaching, faces) = (Vec::new(), Vec::new());
-    let mut descent = Descent { tree, cells, paths, point, behind, front, reaching, faces, known, shades };
+    let mut descent = Descent { tree, cells, paths, point, behind, front, reaching, faces, known, shades, tested: 0 };
     descent.reaching.extend(tree.root().map(Candidate::Box));
     if let Some(root) = cells.root {
         descent.descend(root, 0, normal.is_none());
     }
-    descent.shades
+    (descent.shades, descent.tested)
 }
 
 impl<'a> Descent<'a> {
@@ -165,11 +167,14 @@ impl<'a> Descent<'a> {
         let mut open: Vec<u32> = Vec::new();
         for at in of {
             match self.reaching[at] {
-                Candidate::Face(face) => match self.faces[face as usize].coverage(pyramid) {
-                    SunCoverage::Full => return true,
-                    SunCoverage::Part => self.reaching.push(Candidate::Face(face)),
-                    SunCoverage::None => {}
-                },
+                Candidate::Face(face) => {
+                    self.tested += 1;
+                    match self.faces[face as usize].coverage(pyramid) {
+                        SunCoverage::Full => return true,
+                        SunCoverage::Part => self.reaching.push(Candidate::Face(face)),
+                        SunCoverage::None => {}
+                    }
+                }
                 Candidate::Box(at) => open.push(at),
             }
             while let Some(at) = open.pop() {
@@ -204,6 +209,7 @@ impl<'a> Descent<'a> {
         if self.front.is_some_and(|front| !front.has(corners)) {
             return false;
         }
+        self.tested += 1;
         let corners = SeenCorners::new(corners, self.point);
         if corners.is_beside(pyramid) {
             return false;
@@ -221,7 +227,7 @@ impl<'a> Descent<'a> {
     fn look_at_slot(&mut self, cell: &SunCell, pyramid: &SunPyramid, reaching: Range<usize>, is_before: bool) {
         let path = &self.paths[cell.days.start];
         let shade = &mut self.shades[cell.days.start];
-        let (tree, point, front, faces) = (self.tree, self.point, self.front, &self.faces);
+        let (tree, point, front, faces, tested) = (self.tree, self.point, self.front, &self.faces, &mut self.tested);
         let mut open = OpenSeconds::new(path, cell.slots.start, pyramid);
         if let Some(known) = self.known.get(cell.days.start) {
             open.pass_over(known);
@@ -242,6 +248,7 @@ impl<'a> Descent<'a> {
             }
             let at = match next {
                 Candidate::Face(face) => {
+                    *tested += 1;
                     open.shade(faces[face as usize].corners, Some(&faces[face as usize]), shade);
                     continue;
                 }
@@ -261,7 +268,10 @@ impl<'a> Descent<'a> {
                 }
                 BoxContents::Faces(faces) => {
                     let casting = faces.iter().filter(|corners| front.is_none_or(|front| front.has(corners)));
-                    casting.for_each(|corners| open.shade(SeenCorners::new(corners, point), None, shade));
+                    for corners in casting {
+                        *tested += 1;
+                        open.shade(SeenCorners::new(corners, point), None, shade);
+                    }
                 }
             }
         }

@@ -6,7 +6,7 @@
 //! halved.
 
 use super::{Interval, IntervalBound};
-use crate::sun::{Air, DayWindow, Instant, Place, Sky, SunError, delta_t_secs};
+use crate::sun::{Air, DayWindow, Instant, Place, Sky, SmoothSky, SunError, delta_t_secs};
 use chrono::{DateTime, NaiveTime, TimeDelta, Utc};
 use glam::DVec3;
 use std::ops::RangeInclusive;
@@ -60,7 +60,7 @@ type KnownSuns = OnceLock<Box<[OnceLock<ExactSun>]>>;
 
 /// The sun's path of a day.
 pub struct SunPath<'a> {
-    sky: Sky<'a>,
+    sky: SmoothSky<'a>,
     window: &'a DayWindow,
     base: DateTime<Utc>,
     /// When the sun is up within the window.
@@ -83,6 +83,8 @@ impl<'a> SunPath<'a> {
         let up = up(&sky, window)?;
         let mean_solar = TimeDelta::seconds((place.longitude_deg * 240.0) as i64);
         let base = window.day.date.and_time(NaiveTime::MIN).and_utc() - mean_solar;
+        let ends = [up.first().map_or(window.from, |up| up.start), up.last().map_or(window.from, |up| up.end)];
+        let sky = SmoothSky::new(sky, ends.map(|end| end.to_utc()))?;
         let mut path = SunPath { sky, window, base, up, up_secs: Vec::new(), pieces: Vec::new(), known: None };
         path.up_secs = path.up.iter().map(|interval| path.seconds(interval)).collect();
         for up in path.up_secs.clone() {
