@@ -43,11 +43,13 @@ fn of_areas(site: &JudgedSite, receiver: &RuleReceiver, needs: &mut Vec<RuleNeed
     if site.areas.is_empty() {
         needs.push(RuleNeed::of_key("an area", "[[area]]", ""));
     }
+    let RuleReceiver::Area { least_width_m } = receiver else { return };
+    if *least_width_m <= 0.0 {
+        return;
+    }
     let has_none = |area: &&JudgedArea| CountedParts::of(receiver, area).triangles.is_empty();
     let narrow: Vec<String> = site.areas.iter().filter(has_none).map(|area| format!("{:?}", area.name)).collect();
-    if let RuleReceiver::Area { least_width_m } = receiver
-        && !narrow.is_empty()
-    {
+    if !narrow.is_empty() {
         let of = if narrow.len() <= MOST_NAMES { narrow.join(", ") } else { few(narrow) };
         needs.push(RuleNeed::without_key(format!("a part that is at least {least_width_m} m wide in area {of}")));
     }
@@ -112,10 +114,9 @@ fn of_uses(
             dwellings.entry(dwelling).or_default().push(usage);
         }
     }
-    for (area, of) in spaces.iter().zip(std::iter::repeat(open_spaces)) {
-        if let (Some(dwelling), Some(of)) = (&area.dwelling, of) {
-            dwellings.entry(dwelling).or_default().push(&of.usage);
-        }
+    let of_spaces = spaces.iter().filter_map(|area| area.dwelling.as_ref().zip(open_spaces));
+    for (dwelling, OpenSpaces { usage, .. }) in of_spaces {
+        dwellings.entry(dwelling).or_default().push(usage);
     }
     for usage in all_of {
         let without = dwellings.iter().filter(|(_, uses)| !uses.contains(&usage.as_str()));
