@@ -97,7 +97,7 @@ pub fn envelope(
         buildings: &standing,
         points: &points,
         kept: &name,
-        days: &dates(&kept.days),
+        days: &days_said(site, &asked.demand, &kept.days),
         refraction: site.refraction,
     };
     let mut files = drawn(&map, &mut heard)?;
@@ -237,6 +237,15 @@ fn points(told: &[KeptReceiver]) -> Vec<DVec3> {
     const MOST: usize = 300;
     let points: Vec<DVec3> = told.iter().flat_map(|of| &of.places).flat_map(|place| &place.points).copied().collect();
     if points.len() > MOST { Vec::new() } else { points }
+}
+
+/// The days; and of given hours when the sun counts on them, as a rule's own windows stand in the rule.
+fn days_said(site: &JudgedSite, demand: &SunDemand<'_>, days: &[RuleDay]) -> String {
+    let window = match demand {
+        SunDemand::Rule(..) => String::new(),
+        SunDemand::Hours(..) => encode::window_said(&site.place, days),
+    };
+    if window.is_empty() { dates(days) } else { format!("{}, {window}", dates(days)) }
 }
 
 /// `21 March 2026`, or the first and the last of several days.

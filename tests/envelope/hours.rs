@@ -37,6 +37,7 @@ fn given_hours_are_kept_when_it_is_built() {
     let days = "--from 07:00 --to 17:00";
     let json = asked(path, &format!("envelope . --hours 9 {days} --cell 1 --highest 50"));
     assert_eq!((&json["rule"], &json["hours_secs"], &json["options"]), (&Value::Null, &32_400.into(), &Value::Null));
+    assert_eq!(json["days"][0]["windows"][0][1], "2026-03-21T17:00:00+01:00");
     let kept = json["kept"].as_array().unwrap();
     assert_eq!([&kept[0]["name"], &kept[1]["name"]], ["north", "lawn"]);
     let window = &kept[0]["places"][0]["days"];
@@ -56,7 +57,7 @@ fn given_hours_are_kept_when_it_is_built() {
     let judged = crate::shared::program::gnomon(path, "judge higher.toml --rule windows --quiet");
     assert_eq!(judged.status.code(), Some(1), "{}", String::from_utf8_lossy(&judged.stdout));
     let said = done(path, &format!("envelope . --hours 1h30 {days} --date 2026-06-21 --cell 1 --out again --quiet"));
-    for word in ["2026-06-21", "keeps 1h30min of sun on each day", "by no rule"] {
+    for word in ["2026-06-21", "keeps 1h30min of sun on each day, from 07:00 to 17:00", "by no rule"] {
         assert!(said.contains(word), "{word}: {said}");
     }
 }

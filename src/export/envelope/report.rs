@@ -64,6 +64,7 @@ struct EnvelopeReport<'a> {
     refraction: bool,
     rule: Option<RuleReport<'a>>,
     hours_secs: Option<i64>,
+    days: Vec<EnvelopeDayReport>,
     check_with_your_authority: &'static str,
     #[serde(flatten)]
     settled: Option<SettledReport<'a>>,
@@ -79,6 +80,13 @@ struct EnvelopeReport<'a> {
     kept: Vec<KeptReport<'a>>,
     files: Vec<String>,
     notes: Vec<String>,
+}
+
+/// A day, and when the sun counts on it.
+#[derive(Serialize)]
+struct EnvelopeDayReport {
+    date: String,
+    windows: Vec<[String; 2]>,
 }
 
 #[derive(Serialize)]
@@ -104,7 +112,7 @@ struct KeptDayReport {
 
 /// The JSON: the rule as `judge` has it, the raster of the heights (`region`, `cell`, `width`, `height`), `highest_m`, which
 /// nothing exceeds, the `least_m` and `greatest_m` height and the `volume_m3` below them. Without a rule, `rule` is null and
-/// `hours_secs` says how much sun stays. If there is a choice of hours, none leaves more than `volume_at_most_m3`. For everything that is `kept`, it
+/// `hours_secs` says how much sun stays. `days` has the windows of each day. If there is a choice of hours, none leaves more than `volume_at_most_m3`. For everything that is `kept`, it
 /// has the height of the lowest ray above the ground (`lowest_m`, null if none passes over the plot), whether it `lacks`
 /// sun, and when the sun stays at each of its places.
 ///
@@ -121,6 +129,11 @@ pub fn json(told: &EnvelopeTold, (notes, words): (&[Message], &dyn Words)) -> Re
         seconds: total_secs(spells),
         spells: spells.iter().map(|of| [of.start, of.end].map(|secs| stamp(&time(map.place, secs)))).collect(),
     };
+    let window = |of: &Spell| [of.start, of.end].map(|secs| stamp(&time(map.place, secs)));
+    let of_day = |day: &RuleDay| EnvelopeDayReport {
+        date: day.date.to_string(),
+        windows: day.windows.iter().map(window).collect(),
+    };
     let place = |spot: &KeptSpot| PlacesReport {
         points: spot.points.iter().map(DVec3::to_array).collect(),
         days: spot.days.iter().map(day).collect(),
@@ -134,6 +147,7 @@ pub fn json(told: &EnvelopeTold, (notes, words): (&[Message], &dyn Words)) -> Re
         refraction: map.refraction,
         rule,
         hours_secs,
+        days: told.days.iter().map(of_day).collect(),
         check_with_your_authority: CHECK,
         settled,
         region: map.grid.region(),
@@ -189,7 +203,7 @@ pub fn table(told: &EnvelopeTold) -> String {
     if told.kept.len() > MOST_LINES {
         let _ = writeln!(text, "  and {} more; the JSON has all", told.kept.len() - MOST_LINES);
     }
-    text += &demanded(told.demand);
+    text += &demanded(told);
     let refraction = if map.refraction { "with refraction" } else { "without refraction" };
     let _ = writeln!(
         text,
@@ -201,12 +215,24 @@ pub fn table(told: &EnvelopeTold) -> String {
     text
 }
 
+/// `from 08:00 to 17:00`, or nothing where the sun of the whole day counts. Of several days the first one's times, which is
+/// said.
+pub fn window_said(place: &Place, days: &[RuleDay]) -> String {
+    let Some(([window], day)) = days.first().map(|day| (day.windows.as_slice(), day)) else { return String::new() };
+    let [from, to] = [window.start, window.end].map(|secs| time(place, secs).format("%H:%M").to_string());
+    let on = if days.len() > 1 { format!(" on {}", day.date) } else { String::new() };
+    if from == "00:00" && to == "00:00" { String::new() } else { format!("from {from} to {to}{on}") }
+}
+
 /// What must keep its sun, and what that rests on.
-fn demanded(demand: SunDemand<'_>) -> String {
-    let (source, rule) = match demand {
+fn demanded(told: &EnvelopeTold) -> String {
+    let (source, rule) = match told.demand {
         SunDemand::Rule(source, rule) => (source, rule),
         SunDemand::Hours(secs, _) => {
-            return format!("\nkeeps {} of sun on each day, as given, by no rule\n{CHECK}\n", duration_text(secs));
+            let window = window_said(told.map.place, told.days);
+            let gap = if window.is_empty() { "" } else { ", " };
+            let hours = duration_text(secs);
+            return format!("\nkeeps {hours} of sun on each day{gap}{window}, as given, by no rule\n{CHECK}\n");
         }
     };
     let known = format!("known as {}: {}", source.confidence, source.confidence.meaning());
