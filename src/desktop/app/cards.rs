@@ -1,6 +1,5 @@
 //! Cards over the picture: the legend of hours, and the times when a point lies in the sun.
 
-use crate::desktop::app::judge_card::{self, CardAction};
 use crate::desktop::app::judge_view;
 use crate::desktop::app::state::Open;
 use crate::desktop::parts::components;
@@ -35,17 +34,9 @@ pub(in crate::desktop) fn show(ui: &Ui, open: &mut Open, settings: &mut WindowSe
         let below = if rect.height() > 400.0 { 88.0 } else { AROUND };
         let result = result.as_ref().filter(|_| !is_wide);
         card(ui, "probe", rect, Align2::RIGHT_TOP, vec2(-AROUND, below), |ui| probe(open, settings, unit, result, ui));
-    } else if open.judge.chosen().is_some() {
+    } else if !open.judge.table.is_beside && open.judge.chosen().is_some() {
         let buttons = ui.spacing().interact_size.y + ui.spacing().item_spacing.y;
-        let mut action = None;
-        card(ui, "verdict", rect, Align2::LEFT_TOP, Vec2::splat(AROUND), |ui| {
-            action = judge_card::show(ui, open, buttons);
-        });
-        match action {
-            Some(CardAction::Close) => open.judge.table.chosen = None,
-            Some(CardAction::Choose(line)) => judge_view::choose(open, line),
-            None => {}
-        }
+        card(ui, "verdict", rect, Align2::LEFT_TOP, Vec2::splat(AROUND), |ui| judge_view::card(ui, open, buttons));
     }
 }
 

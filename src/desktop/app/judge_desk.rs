@@ -45,6 +45,8 @@ pub(in crate::desktop) struct JudgedTable {
     pub(in crate::desktop) order: Vec<usize>,
     /// The line that was clicked.
     pub(in crate::desktop) chosen: Option<LineOf>,
+    /// Whether the table is beside the picture, where its card has room below the lines.
+    pub(in crate::desktop) is_beside: bool,
     /// Which of its days is shown.
     pub(in crate::desktop) day: usize,
 }

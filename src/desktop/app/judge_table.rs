@@ -1,7 +1,7 @@
 //! The table of verdicts beside the picture.
 
 use crate::desktop::app::judge_view;
-use crate::desktop::app::state::App;
+use crate::desktop::app::state::{App, Open};
 use crate::desktop::parts::theme;
 use crate::desktop::parts::verdict;
 use crate::desktop::results::judged::{JudgedLine, JudgedResult, LineOf, SortBy};
@@ -23,7 +23,8 @@ const WIDE: f32 = 540.0;
 pub(in crate::desktop) fn panel(app: &mut App, ui: &mut Ui, frame: egui::Frame) {
     let Some(judged) = app.open.as_ref().and_then(|open| open.judge.shown()).cloned() else { return };
     let room = ui.available_width();
-    let panel = if room >= 620.0 {
+    let is_beside = room >= 620.0;
+    let panel = if is_beside {
         egui::Panel::right("verdicts").default_size(400.0).size_range(300.0..=(room - 300.0)).resizable(true)
     } else {
         egui::Panel::bottom("verdicts").default_size(180.0).size_range(100.0..=260.0).resizable(true)
@@ -34,7 +35,26 @@ pub(in crate::desktop) fn panel(app: &mut App, ui: &mut Ui, frame: egui::Frame) 
         let mut inner = ui.new_child(egui::UiBuilder::new().max_rect(rect));
         let ui_of_panel = &mut inner;
         heading(app, ui_of_panel, &judged);
+        if let Some(open) = &mut app.open {
+            open.judge.table.is_beside = is_beside;
+            card(ui_of_panel, open);
+        }
         rows(app, ui_of_panel, &judged);
+        ui.advance_cursor_after_rect(rect);
+    });
+}
+
+/// The card of the chosen line, below the table.
+fn card(ui: &mut Ui, open: &mut Open) {
+    if !open.judge.table.is_beside || open.judge.chosen().is_none() {
+        return;
+    }
+    let most = (ui.available_height() - 80.0).max(120.0);
+    let below = egui::Panel::bottom("verdict").default_size(most.min(290.0)).size_range(100.0..=most).resizable(true);
+    below.frame(egui::Frame::NONE).show(ui, |ui| {
+        let rect = ui.available_rect_before_wrap().shrink2(vec2(0.0, 5.0));
+        let buttons = ui.spacing().interact_size.y + ui.spacing().item_spacing.y;
+        judge_view::card(&mut ui.new_child(egui::UiBuilder::new().max_rect(rect)), open, buttons);
         ui.advance_cursor_after_rect(rect);
     });
 }

@@ -1,5 +1,6 @@
 //! Verdicts on the picture, and the way from a line of the table to its spot.
 
+use crate::desktop::app::judge_card::{self, CardAction};
 use crate::desktop::app::state::Open;
 use crate::desktop::parts::sky;
 use crate::desktop::parts::theme;
@@ -25,6 +26,15 @@ pub(in crate::desktop) fn choose(open: &mut Open, of: LineOf) {
     (open.sunlight, open.sky, open.probing) = (None, None, None);
     let Some(spot) = spot(&judged, of) else { return };
     look(&mut open.viewer.eye, &open.project, &spot);
+}
+
+/// The card of the chosen line, with room for its buttons below what scrolls.
+pub(in crate::desktop) fn card(ui: &mut Ui, open: &mut Open, buttons: f32) {
+    match judge_card::show(ui, open, buttons) {
+        Some(CardAction::Close) => open.judge.table.chosen = None,
+        Some(CardAction::Choose(line)) => choose(open, line),
+        None => {}
+    }
 }
 
 /// Where a line is decided.

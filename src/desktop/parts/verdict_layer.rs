@@ -100,7 +100,7 @@ impl VerdictLayer {
         while self.seen.len() < pieces.len() {
             let piece = &pieces[self.seen.len()].1;
             self.seen.push(is_seen(request.project, view, piece.middle() + DVec3::Z * above(piece)));
-            if self.seen.len() % 64 == 0 && begun.elapsed() > A_FRAME {
+            if self.seen.len().is_multiple_of(64) && begun.elapsed() > A_FRAME {
                 ui.ctx().request_repaint();
                 return;
             }
