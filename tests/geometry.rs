@@ -2,6 +2,7 @@
 
 mod beams;
 mod planes;
+mod rasters;
 mod rays;
 mod report;
 pub(crate) mod silhouettes;

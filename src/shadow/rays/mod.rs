@@ -3,17 +3,21 @@
 
 mod beam;
 mod caster;
+mod cells;
 mod frame;
 mod lanes;
 #[cfg(feature = "test-hooks")]
 mod plain;
 mod prune;
+mod raster;
 mod search;
 mod shear;
 mod tree;
 
 pub use caster::RayCaster;
+pub use cells::CellSet;
 pub use lanes::SimdLevel;
 #[cfg(feature = "test-hooks")]
 pub use plain::PlainCaster;
+pub use raster::{BlockedCells, RasterFate, RayRaster};
 pub use shear::Shear;

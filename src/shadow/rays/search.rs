@@ -2,7 +2,7 @@
 
 use super::frame::{BeamFrame, around, reference};
 use super::lanes::{LaneWork, Lanes, Simd};
-use super::prune::FlatTriangles;
+use super::prune::{Fates, FlatTriangles};
 use super::shear::Shear;
 use super::tree::{BLOCK, EIGHT, MOST_DEPTH, TriangleBlock, WideTree};
 use arrayvec::ArrayVec;
@@ -16,9 +16,17 @@ pub(super) trait BlockVisitor {
     /// Whether blocks are visited from near to far, up to the distance that matters.
     const NEAREST_FIRST: bool;
     /// Visits a block. Returns `false` to stop.
-    fn visit<S: Simd>(&mut self, frame: &BeamFrame<'_>, block: &TriangleBlock) -> bool;
+    fn visit<S: Simd>(&mut self, frame: &BeamFrame<'_>, asked: AskedBlock, block: &TriangleBlock) -> bool;
     /// The greatest distance that matters, metres from the frame's plane.
     fn farthest(&self) -> f32;
+}
+
+/// A block, and which of its triangles are tested.
+#[derive(Clone, Copy)]
+pub(super) struct AskedBlock {
+    pub(super) at: u32,
+    /// A bit for each.
+    pub(super) triangles: u32,
 }
 
 #[inline(always)]
@@ -33,7 +41,9 @@ pub(super) fn traverse<S: Simd, V: BlockVisitor>(tree: &WideTree, frame: &BeamFr
             continue;
         }
         if at & BLOCK != 0 {
-            if !visitor.visit::<S>(frame, &tree.blocks[(at & !BLOCK) as usize]) {
+            let at = at & !BLOCK;
+            let block = &tree.blocks[at as usize];
+            if !visitor.visit::<S>(frame, AskedBlock { at, triangles: block.there }, block) {
                 return;
             }
             continue;
@@ -91,9 +101,10 @@ struct AnyHit<'a> {
 impl BlockVisitor for AnyHit<'_> {
     const NEAREST_FIRST: bool = true;
     #[inline(always)]
-    fn visit<S: Simd>(&mut self, frame: &BeamFrame<'_>, block: &TriangleBlock) -> bool {
-        let missed = FlatTriangles::<S::Eight>::of(frame, block).missed(splat(self.ray));
-        self.hit = bits(block.there & !missed).any(|at| self.shear.hit(self.origin, &block.triangle(at)).is_some());
+    fn visit<S: Simd>(&mut self, frame: &BeamFrame<'_>, asked: AskedBlock, block: &TriangleBlock) -> bool {
+        let Fates { missed, hit } = FlatTriangles::<S::Eight>::of(frame, block).fates(splat(self.ray));
+        let is_hit = |at| self.shear.hit(self.origin, &block.triangle(at)).is_some();
+        self.hit = asked.triangles & hit != 0 || bits(asked.triangles & !missed).any(is_hit);
         !self.hit
     }
     #[inline(always)]
@@ -167,9 +178,9 @@ impl NearestFace {
 impl BlockVisitor for NearestHit<'_> {
     const NEAREST_FIRST: bool = true;
     #[inline(always)]
-    fn visit<S: Simd>(&mut self, frame: &BeamFrame<'_>, block: &TriangleBlock) -> bool {
-        let missed = FlatTriangles::<S::Eight>::of(frame, block).missed(splat(self.ray));
-        for at in bits(block.there & !missed) {
+    fn visit<S: Simd>(&mut self, frame: &BeamFrame<'_>, asked: AskedBlock, block: &TriangleBlock) -> bool {
+        let missed = FlatTriangles::<S::Eight>::of(frame, block).fates(splat(self.ray)).missed;
+        for at in bits(asked.triangles & !missed) {
             if let Some(distance) = self.shear.hit(self.origin, &block.triangle(at))
                 && self.nearest.take(distance, block.faces[at])
             {
