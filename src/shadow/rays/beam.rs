@@ -3,7 +3,7 @@
 use super::frame::{BeamFrame, around, reference};
 use super::lanes::{LaneWork, Lanes, Simd};
 use super::prune::{Fates, FlatTriangles, StartPlane};
-use super::search::{AskedBlock, BlockVisitor, NearestFace, bits, traverse};
+use super::search::{AskedBlock, BlockVisitor, NearestFace, NearestVisitor, bits, traverse, traverse_nearest};
 use super::shear::Shear;
 use super::tree::{EIGHT, TriangleBlock, WideTree};
 use glam::{DVec3, Vec3};
@@ -257,7 +257,6 @@ impl<'a> AnyHits<'a> {
 }
 
 impl BlockVisitor for AnyHits<'_> {
-    const NEAREST_FIRST: bool = false;
     #[inline(always)]
     fn visit<S: Simd>(&mut self, frame: &BeamFrame<'_>, asked: AskedBlock, block: &TriangleBlock) -> bool {
         let flat = FlatTriangles::<S::Eight>::of(frame, block);
@@ -297,10 +296,6 @@ impl BlockVisitor for AnyHits<'_> {
         }
         true
     }
-    #[inline(always)]
-    fn farthest(&self) -> f32 {
-        f32::INFINITY
-    }
 }
 
 /// Finds the nearest face along each of some parallel rays, with the same result as for single rays.
@@ -324,7 +319,7 @@ impl LaneWork for FirstHits<'_> {
             let nearest = [NearestFace::NOTHING; MOST_RAYS];
             let asked = group_bits(from, to);
             let mut search = NearestHits { beam: &beam, asked, nearest, farthest: f32::INFINITY };
-            traverse::<S, _>(tree, &frame, &mut search);
+            traverse_nearest::<S, _>(tree, &frame, &mut search);
             for at in from..to {
                 hits[beam.number[at] as usize] = search.nearest[at].hit();
             }
@@ -341,7 +336,6 @@ struct NearestHits<'a> {
 }
 
 impl BlockVisitor for NearestHits<'_> {
-    const NEAREST_FIRST: bool = true;
     #[inline(always)]
     fn visit<S: Simd>(&mut self, frame: &BeamFrame<'_>, asked: AskedBlock, block: &TriangleBlock) -> bool {
         let flat = FlatTriangles::<S::Eight>::of(frame, block);
@@ -375,6 +369,9 @@ impl BlockVisitor for NearestHits<'_> {
         }
         true
     }
+}
+
+impl NearestVisitor for NearestHits<'_> {
     #[inline(always)]
     fn farthest(&self) -> f32 {
         self.farthest

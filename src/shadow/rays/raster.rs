@@ -266,7 +266,6 @@ struct RectangleSearch<'a> {
 }
 
 impl BlockVisitor for RectangleSearch<'_> {
-    const NEAREST_FIRST: bool = false;
     #[inline(always)]
     fn visit<S: Simd>(&mut self, frame: &BeamFrame<'_>, asked: AskedBlock, block: &TriangleBlock) -> bool {
         let flat = FlatTriangles::<S::Eight>::of(frame, block);
@@ -281,9 +280,5 @@ impl BlockVisitor for RectangleSearch<'_> {
         }
         self.seen += 1;
         self.seen <= MOST_BLOCKS
-    }
-    #[inline(always)]
-    fn farthest(&self) -> f32 {
-        f32::INFINITY
     }
 }

@@ -4,19 +4,21 @@ use super::frame::{BeamFrame, around, reference};
 use super::lanes::{LaneWork, Lanes, Simd};
 use super::prune::{Fates, FlatTriangles};
 use super::shear::Shear;
-use super::tree::{BLOCK, EIGHT, MOST_DEPTH, TriangleBlock, WideTree};
+use super::tree::{BLOCK, EIGHT, MOST_DEPTH, TriangleBlock, WideNode, WideTree};
 use arrayvec::ArrayVec;
 use glam::DVec3;
 
-/// The most nodes and blocks on the stack: seven of each level, and the last level's eight.
+/// The most nodes and blocks on the stack of a search for the nearest: seven of each level, and the last level's eight.
 const MOST_WAITING: usize = MOST_DEPTH * 7 + 8;
 
 /// The visitor of the blocks that rays reach.
 pub(super) trait BlockVisitor {
-    /// Whether blocks are visited from near to far, up to the distance that matters.
-    const NEAREST_FIRST: bool;
     /// Visits a block. Returns `false` to stop.
     fn visit<S: Simd>(&mut self, frame: &BeamFrame<'_>, asked: AskedBlock, block: &TriangleBlock) -> bool;
+}
+
+/// The visitor of blocks from near to far.
+pub(super) trait NearestVisitor: BlockVisitor {
     /// The greatest distance that matters, metres from the frame's plane.
     fn farthest(&self) -> f32;
 }
@@ -30,20 +32,54 @@ pub(super) struct AskedBlock {
 }
 
 #[inline(always)]
+fn visit<S: Simd, V: BlockVisitor>(tree: &WideTree, frame: &BeamFrame<'_>, child: u32, visitor: &mut V) -> bool {
+    let at = child & !BLOCK;
+    let block = &tree.blocks[at as usize];
+    visitor.visit::<S>(frame, AskedBlock { at, triangles: block.there }, block)
+}
+
+/// Visits the blocks that rays may meet, in any order. What waits is a node with the children that are left, as most
+/// searches end before they come to them.
+#[inline(always)]
 pub(super) fn traverse<S: Simd, V: BlockVisitor>(tree: &WideTree, frame: &BeamFrame<'_>, visitor: &mut V) {
+    let Some(mut node) = tree.nodes.first() else { return };
+    let mut waiting = ArrayVec::<(&WideNode, u32), MOST_DEPTH>::new();
+    let mut met = frame.enter::<S::Eight>(node, f32::INFINITY).0;
+    loop {
+        if met == 0 {
+            let Some(last) = waiting.pop() else { return };
+            (node, met) = last;
+        }
+        let child = node.children[met.trailing_zeros() as usize];
+        met &= met - 1;
+        if child & BLOCK != 0 {
+            if !visit::<S, V>(tree, frame, child, visitor) {
+                return;
+            }
+            continue;
+        }
+        if met != 0 {
+            waiting.push((node, met));
+        }
+        node = &tree.nodes[child as usize];
+        met = frame.enter::<S::Eight>(node, f32::INFINITY).0;
+    }
+}
+
+/// Visits the blocks that rays may meet from near to far, up to the distance that matters.
+#[inline(always)]
+pub(super) fn traverse_nearest<S: Simd, V: NearestVisitor>(tree: &WideTree, frame: &BeamFrame<'_>, visitor: &mut V) {
     let mut waiting = ArrayVec::<(u32, f32), MOST_WAITING>::new();
     if !tree.nodes.is_empty() {
         // begins with the root
         waiting.push((0, f32::NEG_INFINITY));
     }
     while let Some((at, near)) = waiting.pop() {
-        if V::NEAREST_FIRST && near > visitor.farthest() {
+        if near > visitor.farthest() {
             continue;
         }
         if at & BLOCK != 0 {
-            let at = at & !BLOCK;
-            let block = &tree.blocks[at as usize];
-            if !visitor.visit::<S>(frame, AskedBlock { at, triangles: block.there }, block) {
+            if !visit::<S, V>(tree, frame, at, visitor) {
                 return;
             }
             continue;
@@ -51,20 +87,16 @@ pub(super) fn traverse<S: Simd, V: BlockVisitor>(tree: &WideTree, frame: &BeamFr
         let node = &tree.nodes[at as usize];
         let (mut met, near) = frame.enter::<S::Eight>(node, visitor.farthest());
         let mut soonest = [0.0; EIGHT];
-        if V::NEAREST_FIRST {
-            near.store(&mut soonest);
-        }
+        near.store(&mut soonest);
         let first = waiting.len();
         while met != 0 {
             let slot = met.trailing_zeros() as usize;
             met &= met - 1;
             waiting.push((node.children[slot], soonest[slot]));
-            if V::NEAREST_FIRST {
-                let mut place = waiting.len() - 1;
-                while place > first && waiting[place - 1].1 < waiting[place].1 {
-                    waiting.swap(place - 1, place);
-                    place -= 1;
-                }
+            let mut place = waiting.len() - 1;
+            while place > first && waiting[place - 1].1 < waiting[place].1 {
+                waiting.swap(place - 1, place);
+                place -= 1;
             }
         }
     }
@@ -99,17 +131,12 @@ struct AnyHit<'a> {
 }
 
 impl BlockVisitor for AnyHit<'_> {
-    const NEAREST_FIRST: bool = true;
     #[inline(always)]
     fn visit<S: Simd>(&mut self, frame: &BeamFrame<'_>, asked: AskedBlock, block: &TriangleBlock) -> bool {
         let Fates { missed, hit } = FlatTriangles::<S::Eight>::of(frame, block).fates(splat(self.ray));
         let is_hit = |at| self.shear.hit(self.origin, &block.triangle(at)).is_some();
         self.hit = asked.triangles & hit != 0 || bits(asked.triangles & !missed).any(is_hit);
         !self.hit
-    }
-    #[inline(always)]
-    fn farthest(&self) -> f32 {
-        f32::INFINITY
     }
 }
 
@@ -129,7 +156,7 @@ impl LaneWork for FirstHit<'_> {
         let ray = around(shear, &reference, origin);
         let frame = BeamFrame::new(shear, reference, ray, ray);
         let mut search = NearestHit { shear, origin, ray, nearest: NearestFace::NOTHING, farthest: f32::INFINITY };
-        traverse::<S, _>(tree, &frame, &mut search);
+        traverse_nearest::<S, _>(tree, &frame, &mut search);
         search.nearest.hit()
     }
 }
@@ -176,7 +203,6 @@ impl NearestFace {
 }
 
 impl BlockVisitor for NearestHit<'_> {
-    const NEAREST_FIRST: bool = true;
     #[inline(always)]
     fn visit<S: Simd>(&mut self, frame: &BeamFrame<'_>, asked: AskedBlock, block: &TriangleBlock) -> bool {
         let missed = FlatTriangles::<S::Eight>::of(frame, block).fates(splat(self.ray)).missed;
@@ -189,6 +215,9 @@ impl BlockVisitor for NearestHit<'_> {
         }
         true
     }
+}
+
+impl NearestVisitor for NearestHit<'_> {
     #[inline(always)]
     fn farthest(&self) -> f32 {
         self.farthest
