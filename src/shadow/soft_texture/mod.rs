@@ -253,6 +253,10 @@ struct PatchJudge<'a> {
 impl PatchJudge<'_> {
     /// Adds a sample's weight to the texels of a patch that see it.
     fn add(&self, patch: &Patch, sample: &Sample, sums: &mut [u32], scratch: &mut Scratch) {
+        if self.sought.occluders.is_none() {
+            self.cast(patch, sample, sums, scratch);
+            return;
+        }
         let Some(raster) = raster(patch, self.sought.patches.cell, sample.light) else { return };
         let Some(onto) = RasterProjection::new(&raster, sample.light) else { return };
         let Some(occluders) = self.sought.find(patch, &onto, &mut scratch.waiting, &mut scratch.found) else {
