@@ -70,6 +70,12 @@ impl RayCaster {
         }
     }
 
+    /// Counts what [`RayCaster::blocked`] tests.
+    #[cfg(feature = "test-hooks")]
+    pub fn counted(&self, origin: DVec3, shear: &Shear) -> super::RayCounts {
+        self.level.run(super::counted::CountedRay { tree: &self.tree, shear, origin })
+    }
+
     /// Returns the number of faces along a ray: the count that a shadow volume must have at its origin.
     #[cfg(feature = "test-hooks")]
     pub fn crossings(&self, origin: DVec3, direction: DVec3) -> usize {

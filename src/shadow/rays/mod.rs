@@ -4,6 +4,8 @@
 mod beam;
 mod caster;
 mod cells;
+#[cfg(feature = "test-hooks")]
+mod counted;
 mod frame;
 mod lanes;
 #[cfg(feature = "test-hooks")]
@@ -16,6 +18,8 @@ mod tree;
 
 pub use caster::RayCaster;
 pub use cells::CellSet;
+#[cfg(feature = "test-hooks")]
+pub use counted::RayCounts;
 pub use lanes::SimdLevel;
 #[cfg(feature = "test-hooks")]
 pub use plain::PlainCaster;

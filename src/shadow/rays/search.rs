@@ -13,6 +13,9 @@ const MOST_WAITING: usize = MOST_DEPTH * 7 + 8;
 
 /// The visitor of the blocks that rays reach.
 pub(super) trait BlockVisitor {
+    /// Called for each node whose boxes are tested; for counts.
+    #[inline(always)]
+    fn enter(&mut self) {}
     /// Visits a block. Returns `false` to stop.
     fn visit<S: Simd>(&mut self, frame: &BeamFrame<'_>, asked: AskedBlock, block: &TriangleBlock) -> bool;
 }
@@ -44,6 +47,7 @@ fn visit<S: Simd, V: BlockVisitor>(tree: &WideTree, frame: &BeamFrame<'_>, child
 pub(super) fn traverse<S: Simd, V: BlockVisitor>(tree: &WideTree, frame: &BeamFrame<'_>, visitor: &mut V) {
     let Some(mut node) = tree.nodes.first() else { return };
     let mut waiting = ArrayVec::<(&WideNode, u32), MOST_DEPTH>::new();
+    visitor.enter();
     let mut met = frame.enter::<S::Eight>(node, f32::INFINITY).0;
     loop {
         if met == 0 {
@@ -62,6 +66,7 @@ pub(super) fn traverse<S: Simd, V: BlockVisitor>(tree: &WideTree, frame: &BeamFr
             waiting.push((node, met));
         }
         node = &tree.nodes[child as usize];
+        visitor.enter();
         met = frame.enter::<S::Eight>(node, f32::INFINITY).0;
     }
 }
@@ -113,21 +118,27 @@ impl LaneWork for BlockedRay<'_> {
     type Output = bool;
     #[inline(always)]
     fn run<S: Simd>(self) -> bool {
-        let BlockedRay { tree, shear, origin } = self;
-        let reference = reference(shear, origin);
-        let ray = around(shear, &reference, origin);
-        let frame = BeamFrame::new(shear, reference, ray, ray);
-        let mut search = AnyHit { shear, origin, ray, hit: false };
-        traverse::<S, _>(tree, &frame, &mut search);
+        let (mut search, frame) = AnyHit::of(self.shear, self.origin);
+        traverse::<S, _>(self.tree, &frame, &mut search);
         search.hit
     }
 }
 
-struct AnyHit<'a> {
+pub(super) struct AnyHit<'a> {
     shear: &'a Shear,
     origin: DVec3,
     ray: [f32; 3],
     hit: bool,
+}
+
+impl<'a> AnyHit<'a> {
+    /// The search for a ray, and its frame.
+    #[inline(always)]
+    pub(super) fn of(shear: &'a Shear, origin: DVec3) -> (AnyHit<'a>, BeamFrame<'a>) {
+        let reference = reference(shear, origin);
+        let ray = around(shear, &reference, origin);
+        (AnyHit { shear, origin, ray, hit: false }, BeamFrame::new(shear, reference, ray, ray))
+    }
 }
 
 impl BlockVisitor for AnyHit<'_> {
