@@ -28,8 +28,7 @@ fn ways(gpu: &Arc<Gpu>) -> Vec<(&'static str, Painter, Choice)> {
         ("edge flags", on_processor(Fill::Silhouettes), Choice::Texture),
         ("filled, adapter", Painter::OnGpu(Arc::clone(gpu)), Choice::Texture),
         ("rays", on_processor(Fill::Faces), Choice::Rays),
-        ("auto, filled", on_processor(Fill::Faces), Choice::Auto),
-        ("auto, edge flags", on_processor(Fill::Silhouettes), Choice::Auto),
+        ("rectangles", on_processor(Fill::Silhouettes), Choice::Auto),
         ("auto, adapter", Painter::OnGpu(Arc::clone(gpu)), Choice::Auto),
     ]
 }
@@ -87,13 +86,13 @@ fn sites(gpu: &Arc<Gpu>) {
         let (mut names, mut sums) = (Vec::new(), Vec::new());
         for ((way, ..), (texture, times)) in ways.into_iter().zip(textures) {
             let millis = median(times);
-            let PatchJudgements { textures, faces, rays, texture_texels } = texture.judged();
+            let PatchJudgements { textures, faces, rays, texture_texels, rectangle_texels } = texture.judged();
             let (bytes, count) = (texture.gpu_bytes(), suns.len() as u64);
             println!(
                 "| {name} | {} | {way} | {millis:.0} | {:.2} | {:.2} | {} | {:.0} | {} | {:.0} |",
                 patches.cell,
                 millis * 1e3 / patches.list.len() as f64,
-                (texture_texels + rays) as f64 / count as f64 / (millis * 1e3),
+                (texture_texels + rectangle_texels + rays) as f64 / count as f64 / (millis * 1e3),
                 textures / count,
                 faces as f64 / textures.max(1) as f64,
                 rays / count,

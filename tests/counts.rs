@@ -3,13 +3,17 @@
 
 use crate::shared::drawing::gpu;
 use chrono::NaiveDate;
-use glam::dvec3;
+use glam::{DVec3, dvec3};
 use gnomon::choice::{Engine, MAP_SIZE, Receivers};
 use gnomon::formats;
+use gnomon::mesh::Mesh;
+use gnomon::mesh::patches::{MOST_TEXELS, Patches};
 use gnomon::shadow::hybrid::Hybrid;
 use gnomon::shadow::ray_cast::RayCast;
+use gnomon::shadow::rays::{RayCaster, RayCounts, Shear};
+use gnomon::shadow::soft_texture::{Choice, Fill, Painter, Sample, SoftTexture};
 use gnomon::shadow::stencil::Stencil;
-use gnomon::shadow::{Scene, Technique};
+use gnomon::shadow::{JUDGED_ABOVE_M, Scene, Technique};
 use gnomon::silhouette::ProcessorFinder;
 use gnomon::site::{Overrides, Site};
 use gnomon::study;
@@ -19,6 +23,7 @@ use gnomon::view::View;
 use std::cell::Cell;
 use std::ops::ControlFlow;
 use std::path::Path;
+use std::sync::Arc;
 
 const RECORD: &str = include_str!("../docs/benchmarks/counts.md");
 const SITES: [&str; 3] = ["tower", "industry", "headquarters"];
@@ -62,6 +67,8 @@ fn counts(name: &str) -> Counts {
     }
     assert!(silhouettes.iter().all(|count| *count == silhouettes[0]), "{silhouettes:?}");
     counts.push(("silhouette edges", silhouettes[0] as u64));
+
+    counts.extend(on_facades(&site, &casters, &suns));
 
     let receivers = site.mesh.of_components(&site.receives);
     let (scene, view) = (Scene { casters, receivers, ground: site.ground.level }, View::Plan(site.grid));
@@ -107,6 +114,33 @@ fn faces_of_a_year(site: &Site) -> u64 {
         points.iter().for_each(|at| drop(search.intervals(at, &days).unwrap()));
     }
     search.tested()
+}
+
+/// The work on façades and roofs, with texels of a metre; and what one ray from each patch's first texel tests.
+fn on_facades(site: &Site, casters: &Mesh, suns: &[DVec3]) -> Counts {
+    let patches = Arc::new(Patches::of(&site.mesh, &site.receives, 1.0, MOST_TEXELS));
+    let painter = Painter::OnProcessor(Fill::Silhouettes);
+    let mut texture = SoftTexture::new(casters.clone(), Arc::clone(&patches), painter, Choice::Auto).unwrap();
+    let samples: Vec<Sample> = suns.iter().map(|sun| Sample { light: sun.extend(0.0), weight: 1 }).collect();
+    texture.add(&samples).unwrap();
+    let judged = texture.judged();
+    let caster = RayCaster::new(casters, 1000.0);
+    let mut of_rays = RayCounts::default();
+    for sun in suns {
+        let shear = Shear::along(*sun);
+        for patch in patches.list.iter().filter(|patch| patch.normal().dot(*sun) > 0.0) {
+            let first = patches.texels[patch.texels.start as usize];
+            let counts = caster.counted(patches.point(patch, first) + patch.normal() * JUDGED_ABOVE_M, &shear);
+            of_rays.nodes += counts.nodes;
+            of_rays.faces += counts.faces;
+        }
+    }
+    vec![
+        ("texels of façades decided in rectangles", judged.rectangle_texels),
+        ("texels of façades decided by rays", judged.rays),
+        ("boxes tested by a ray from each patch", of_rays.nodes * 8),
+        ("faces tested by these", of_rays.faces),
+    ]
 }
 
 /// The recorded counts of all sites, by name, in the order of the table.

@@ -3,6 +3,7 @@
 mod beams;
 mod edges;
 mod planes;
+mod rasters;
 mod rays;
 mod report;
 pub(crate) mod silhouettes;

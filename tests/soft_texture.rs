@@ -4,6 +4,7 @@
 mod closed_forms;
 mod hours;
 mod picture;
+mod rectangles;
 mod scenes;
 mod sites;
 

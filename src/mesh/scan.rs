@@ -63,6 +63,19 @@ impl Coverage {
         self.words[row as usize * self.in_row + column as usize / 64] >> (column % 64) & 1 == 1
     }
 
+    /// The covered cells, row by row: column and row.
+    pub(crate) fn cells(&self) -> impl Iterator<Item = (usize, usize)> {
+        self.words.iter().enumerate().flat_map(|(at, &word)| {
+            let (row, first) = (at / self.in_row, at % self.in_row * 64);
+            let mut rest = word;
+            std::iter::from_fn(move || {
+                let bit = (rest != 0).then(|| rest.trailing_zeros())?;
+                rest &= rest - 1;
+                Some((first + bit as usize, row))
+            })
+        })
+    }
+
     /// The number of covered cells.
     pub(crate) fn count(&self) -> usize {
         self.words.iter().map(|word| word.count_ones() as usize).sum()

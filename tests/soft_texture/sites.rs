@@ -55,12 +55,14 @@ fn hours(name: &str, asked: &Overrides) -> PatchOutcome {
 #[test]
 fn hours_at_the_default_cell_are_those_of_rays() {
     for name in ["tower", "industry"] {
-        let [textures, rays] = [Method::Auto, Method::RayCast].map(|method| {
+        let [divided, rays] = [Method::Auto, Method::RayCast].map(|method| {
             hours(name, &Overrides { technique: Some(method), engine: Some(Engine::Cpu), ..Overrides::default() })
         });
-        assert!(textures.judged.textures > 5_000, "{name}: {:?}", textures.judged);
-        assert_eq!(textures.hours.lit.len(), rays.hours.lit.len());
-        let differ = textures.hours.lit.iter().zip(&rays.hours.lit).filter(|(one, other)| one != other).count();
+        let asked = divided.judged.rays + divided.judged.rectangle_texels;
+        assert!(divided.judged.rectangle_texels * 3 > asked, "{name}: {:?}", divided.judged);
+        assert_eq!((divided.judged.textures, rays.judged.rectangle_texels), (0, 0));
+        assert_eq!(divided.hours.lit.len(), rays.hours.lit.len());
+        let differ = divided.hours.lit.iter().zip(&rays.hours.lit).filter(|(one, other)| one != other).count();
         assert_eq!(differ, 0, "{name}: of {} texels", rays.hours.lit.len());
     }
 }

@@ -114,11 +114,16 @@ impl Patches {
         }
         let again = self.covered_by(mesh, patch, &again, -ONE_PLANE_M);
         let touching = self.covered_by(mesh, patch, &touching, -BEHIND_M);
+        if again.is_none() && touching.is_none() {
+            return CountedArea { area_m2, uncounted, left_out };
+        }
         let (mut doubled, mut touched) = (0, 0);
         for number in patch.texels.clone() {
             let texel = self.texels[number as usize];
-            let lies_in =
-                |covers: &[Coverage]| covers.iter().all(|cover| cover.get(texel.column.into(), texel.row.into()));
+            let lies_in = |covers: &Option<[Coverage; 4]>| {
+                let covers = covers.as_ref();
+                covers.is_some_and(|covers| covers.iter().all(|it| it.get(texel.column.into(), texel.row.into())))
+            };
             let (is_touching, is_again) = (lies_in(&touching), lies_in(&again));
             touched += u32::from(is_touching);
             doubled += u32::from(is_again && !is_touching);
@@ -156,25 +161,28 @@ impl Patches {
     }
 
     /// The texels that lie wholly in other surfaces: these must cover four points around the centre. Only surfaces no
-    /// lower than `least` above the patch's plane count.
-    fn covered_by(&self, mesh: &Mesh, patch: &Patch, others: &[&FlatSurface], least: f64) -> Vec<Coverage> {
+    /// lower than `least` above the patch's plane count; `None` if there is none.
+    fn covered_by(&self, mesh: &Mesh, patch: &Patch, others: &[&FlatSurface], least: f64) -> Option<[Coverage; 4]> {
+        let in_plane = |corner: &Vec3| (least..=ONE_PLANE_M).contains(&patch.plane.dot(corner.as_dvec3().extend(1.0)));
+        let faces = others.iter().flat_map(|other| other.faces).map(|&face| mesh.corners(face as usize));
+        let faces: Vec<[Vec3; 3]> = faces.filter(|corners| corners.iter().all(in_plane)).collect();
+        if faces.is_empty() {
+            return None;
+        }
         // the point at which a patch without centres is judged
         let aside = patch.alone.map_or(DVec2::ZERO, |point| {
             let texel = self.texels[patch.texels.start as usize];
             place(patch, point, self.cell) - DVec2::new(texel.column.into(), texel.row.into())
         });
-        let in_plane = |corner: &Vec3| (least..=ONE_PLANE_M).contains(&patch.plane.dot(corner.as_dvec3().extend(1.0)));
         let around = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)];
-        let covers = around.map(|(right, down)| {
+        Some(around.map(|(right, down)| {
             let shift = aside + DVec2::new(right, down) * AROUND;
             let mut bits = Coverage::empty(patch.width, patch.height);
-            let faces = others.iter().flat_map(|other| other.faces).map(|&face| mesh.corners(face as usize));
-            for corners in faces.filter(|corners| corners.iter().all(in_plane)) {
+            for corners in &faces {
                 bits.cover(corners.map(|corner| place(patch, corner.as_dvec3(), self.cell) - shift));
             }
             bits
-        });
-        covers.into()
+        }))
     }
 }
 

@@ -12,19 +12,56 @@ pub(super) fn find(mesh: &Mesh, patches: &mut Patches) {
     let (cell, faces) = (patches.cell, &patches.faces);
     let of = |patch: &Patch| {
         let faces = &faces[patch.faces.start as usize..patch.faces.end as usize];
-        let texels = covered(mesh, patch, faces, cell);
-        if !texels.is_empty() {
-            return (texels, None);
+        let bits = covered(mesh, patch, faces, cell);
+        match bits.count() {
+            0 => FoundTexels::Alone(alone(mesh, patch, faces, cell)),
+            count => FoundTexels::Covered(bits, count),
         }
-        let (texel, point) = alone(mesh, patch, faces, cell);
-        (vec![texel], Some(point))
     };
-    let found: Vec<_> = patches.list.par_iter().map(of).collect();
-    for (patch, (texels, alone)) in patches.list.iter_mut().zip(found) {
-        let first = patches.texels.len() as u32;
-        patches.texels.extend(texels);
-        patch.texels = first..patches.texels.len() as u32;
-        patch.alone = alone;
+    let found: Vec<FoundTexels> = patches.list.par_iter().map(of).collect();
+    // bits take a thirtieth of the texels' memory, which is then filled in place
+    let mut first = 0;
+    for (patch, found) in patches.list.iter_mut().zip(&found) {
+        patch.texels = first..first + found.count() as u32;
+        patch.alone = found.point();
+        first = patch.texels.end;
+    }
+    patches.texels = vec![Texel { column: 0, row: 0 }; first as usize];
+    let mut rest = &mut patches.texels[..];
+    let mut runs = Vec::with_capacity(found.len());
+    for found in &found {
+        let (texels, after) = rest.split_at_mut(found.count());
+        rest = after;
+        runs.push((found, texels));
+    }
+    runs.into_par_iter().for_each(|(found, texels)| found.write(texels));
+}
+
+/// The texels of a patch: covered cells and their number, or the only texel with its point.
+enum FoundTexels {
+    Covered(Coverage, usize),
+    Alone((Texel, DVec3)),
+}
+
+impl FoundTexels {
+    fn count(&self) -> usize {
+        if let FoundTexels::Covered(_, count) = self { *count } else { 1 }
+    }
+
+    fn point(&self) -> Option<DVec3> {
+        if let FoundTexels::Alone((_, point)) = self { Some(*point) } else { None }
+    }
+
+    /// Writes as many texels as there are, row by row.
+    fn write(&self, texels: &mut [Texel]) {
+        match self {
+            FoundTexels::Alone((texel, _)) => texels[0] = *texel,
+            FoundTexels::Covered(bits, _) => {
+                for (texel, (column, row)) in texels.iter_mut().zip(bits.cells()) {
+                    *texel = Texel { column: column as u16, row: row as u16 };
+                }
+            }
+        }
     }
 }
 
@@ -34,17 +71,12 @@ pub(super) fn place(patch: &Patch, point: DVec3, cell: f64) -> DVec2 {
     DVec2::new(from_corner.dot(patch.right), from_corner.dot(patch.down)) - 0.5
 }
 
-fn covered(mesh: &Mesh, patch: &Patch, faces: &[u32], cell: f64) -> Vec<Texel> {
+fn covered(mesh: &Mesh, patch: &Patch, faces: &[u32], cell: f64) -> Coverage {
     let mut bits = Coverage::empty(patch.width, patch.height);
     for &face in faces {
         bits.cover(mesh.corners(face as usize).map(|corner| place(patch, corner.as_dvec3(), cell)));
     }
-    let mut texels = Vec::new();
-    for row in 0..patch.height {
-        let in_row = (0..patch.width).filter(|&column| bits.get(column, row));
-        texels.extend(in_row.map(|column| Texel { column: column as u16, row: row as u16 }));
-    }
-    texels
+    bits
 }
 
 /// The middle of the largest face, projected to the patch's plane, and the texel that contains it.

@@ -2,11 +2,13 @@
 
 use super::frame::{BeamFrame, around, reference};
 use super::lanes::{LaneWork, Lanes, Simd};
-use super::prune::FlatTriangles;
-use super::search::{BlockVisitor, NearestFace, bits, traverse};
+use super::prune::{Fates, FlatTriangles, StartPlane};
+use super::search::{AskedBlock, BlockVisitor, NearestFace, NearestVisitor, bits, traverse, traverse_nearest};
 use super::shear::Shear;
 use super::tree::{EIGHT, TriangleBlock, WideTree};
 use glam::{DVec3, Vec3};
+use std::marker::PhantomData;
+use std::ops::Range;
 
 /// The most rays of a beam.
 pub(super) const MOST_RAYS: usize = 64;
@@ -58,7 +60,7 @@ const MOST_STEPS: f32 = 24.0;
 
 impl<'a> Beam<'a> {
     /// Makes a beam of 1 to [`MOST_RAYS`] rays.
-    fn new(shear: &'a Shear, origins: &[DVec3]) -> Beam<'a> {
+    pub(super) fn new(shear: &'a Shear, origins: &[DVec3]) -> Beam<'a> {
         let reference = reference(shear, origins[0]);
         let mut beam = Beam {
             shear,
@@ -88,6 +90,12 @@ impl<'a> Beam<'a> {
             spread.with(self.ray(at));
         }
         spread
+    }
+
+    /// The frame of its first rays, all together.
+    pub(super) fn frame(&self, rays: usize) -> BeamFrame<'a> {
+        let Spread { low, high } = self.spread(0, rays);
+        BeamFrame::new(self.shear, self.reference, low, high)
     }
 
     /// Whether rays in row order are so close together that no groups need to be found.
@@ -141,9 +149,11 @@ impl<'a> Beam<'a> {
         let mut distances = [f64::INFINITY; MOST_LANES];
         for from in (0..L::COUNT).step_by(EIGHT) {
             let [right, up, ahead] = &self.places;
-            let eight = |places: &'_ [f64; MOST_RAYS]| places[first + from..].first_chunk().copied();
-            if let (Some(right), Some(up), Some(ahead)) = (eight(right), eight(up), eight(ahead)) {
-                distances[from..from + EIGHT].copy_from_slice(&self.shear.hits([&right, &up, &ahead], triangle));
+            let at = first + from;
+            if let (Some(right), Some(up), Some(ahead)) =
+                (right[at..].first_chunk(), up[at..].first_chunk(), ahead[at..].first_chunk())
+            {
+                distances[from..from + EIGHT].copy_from_slice(&self.shear.hits([right, up, ahead], triangle));
             }
         }
         distances
@@ -174,10 +184,9 @@ impl LaneWork for BlockedBeam<'_> {
         while from < origins.len() {
             let (to, spread) = beam.group(from, origins.len());
             let frame = BeamFrame::new(shear, beam.reference, spread.low, spread.high);
-            let asked = group_bits(from, to);
-            let mut search = AnyHits { beam: &beam, open: asked };
+            let mut search = AnyHits::of(&beam, from..to, None);
             traverse::<S, _>(tree, &frame, &mut search);
-            let hit = asked & !search.open;
+            let hit = search.blocked();
             for at in from..to {
                 blocked |= (hit >> at & 1) << beam.number[at];
             }
@@ -192,31 +201,74 @@ fn group_bits(from: usize, to: usize) -> u64 {
     (u64::MAX >> (MOST_RAYS - (to - from))) << from
 }
 
-/// Calls `ask` for each set of lanes with rays that may hit a triangle: the first ray's index, and a bit per lane.
-#[inline(always)]
-fn each_set<L: Lanes>(rays: u64, mut ask: impl FnMut(usize, u32)) {
-    let mut first = rays.trailing_zeros() as usize / L::COUNT * L::COUNT;
-    while first < MOST_RAYS && rays >> first != 0 {
-        let set = (rays >> first) as u32 & (u32::MAX >> (32 - L::COUNT));
-        if set != 0 {
-            ask(first, set);
-        }
-        first += L::COUNT;
+/// Sets of lanes with rays that may hit a triangle: the first ray's index, and a bit per lane. No closures, which are
+/// not always inlined, so that their lanes would be called instead of compiled for the level.
+struct LaneSets<L> {
+    rays: u64,
+    first: usize,
+    lanes: PhantomData<L>,
+}
+
+impl<L: Lanes> LaneSets<L> {
+    #[inline(always)]
+    fn of(rays: u64) -> LaneSets<L> {
+        LaneSets { rays, first: rays.trailing_zeros() as usize / L::COUNT * L::COUNT, lanes: PhantomData }
     }
 }
 
-struct AnyHits<'a> {
+impl<L: Lanes> Iterator for LaneSets<L> {
+    type Item = (usize, u32);
+    #[inline(always)]
+    fn next(&mut self) -> Option<(usize, u32)> {
+        while self.first < MOST_RAYS && self.rays >> self.first != 0 {
+            let first = self.first;
+            let set = (self.rays >> first) as u32 & (u32::MAX >> (32 - L::COUNT));
+            self.first += L::COUNT;
+            if set != 0 {
+                return Some((first, set));
+            }
+        }
+        None
+    }
+}
+
+/// The search for whatever blocks rays of a beam.
+pub(super) struct AnyHits<'a> {
     beam: &'a Beam<'a>,
+    asked: u64,
     /// The rays that are not blocked so far, in group order.
     open: u64,
+    plane: Option<StartPlane>,
+    /// The block that blocked the last of the rays.
+    pub(super) last: Option<u32>,
+}
+
+impl<'a> AnyHits<'a> {
+    /// The search for some rays, in group order, which all begin in the plane if there is one.
+    pub(super) fn of(beam: &'a Beam<'a>, rays: Range<usize>, plane: Option<StartPlane>) -> AnyHits<'a> {
+        let asked = group_bits(rays.start, rays.end);
+        AnyHits { beam, asked, open: asked, plane, last: None }
+    }
+
+    /// The rays that are blocked, in group order.
+    pub(super) fn blocked(&self) -> u64 {
+        self.asked & !self.open
+    }
 }
 
 impl BlockVisitor for AnyHits<'_> {
-    const NEAREST_FIRST: bool = false;
     #[inline(always)]
-    fn visit<S: Simd>(&mut self, frame: &BeamFrame<'_>, block: &TriangleBlock) -> bool {
+    fn visit<S: Simd>(&mut self, frame: &BeamFrame<'_>, asked: AskedBlock, block: &TriangleBlock) -> bool {
         let flat = FlatTriangles::<S::Eight>::of(frame, block);
-        let met = block.there & !flat.missed_by_all(frame);
+        let Fates { missed, hit } = flat.fates_of_all(frame);
+        if asked.triangles & hit != 0 {
+            (self.open, self.last) = (0, Some(asked.at));
+            return false;
+        }
+        let mut met = asked.triangles & !missed;
+        if let Some(plane) = self.plane.as_ref().filter(|_| met != 0) {
+            met &= !flat.below(frame, block, plane);
+        }
         if met == 0 {
             return true;
         }
@@ -225,25 +277,24 @@ impl BlockVisitor for AnyHits<'_> {
             let flat = FlatTriangles::<S::Many>::one(&rows, at);
             let triangle = block.triangle(at);
             let mut open = self.open;
-            each_set::<S::Many>(self.open, |first, set| {
-                let asked = set & !flat.missed(self.beam.lanes(first));
+            for (first, set) in LaneSets::<S::Many>::of(self.open) {
+                let Fates { missed, hit } = flat.fates(self.beam.lanes(first));
+                open &= !(u64::from(set & hit) << first);
+                let asked = set & !missed & !hit;
                 if asked != 0 {
                     let hits = self.beam.hits::<S::Many>(first, &triangle);
                     for lane in bits(asked) {
                         open &= !(u64::from(hits[lane] < f64::INFINITY) << (first + lane));
                     }
                 }
-            });
+            }
             self.open = open;
             if open == 0 {
+                self.last = Some(asked.at);
                 return false;
             }
         }
         true
-    }
-    #[inline(always)]
-    fn farthest(&self) -> f32 {
-        f32::INFINITY
     }
 }
 
@@ -268,7 +319,7 @@ impl LaneWork for FirstHits<'_> {
             let nearest = [NearestFace::NOTHING; MOST_RAYS];
             let asked = group_bits(from, to);
             let mut search = NearestHits { beam: &beam, asked, nearest, farthest: f32::INFINITY };
-            traverse::<S, _>(tree, &frame, &mut search);
+            traverse_nearest::<S, _>(tree, &frame, &mut search);
             for at in from..to {
                 hits[beam.number[at] as usize] = search.nearest[at].hit();
             }
@@ -285,11 +336,10 @@ struct NearestHits<'a> {
 }
 
 impl BlockVisitor for NearestHits<'_> {
-    const NEAREST_FIRST: bool = true;
     #[inline(always)]
-    fn visit<S: Simd>(&mut self, frame: &BeamFrame<'_>, block: &TriangleBlock) -> bool {
+    fn visit<S: Simd>(&mut self, frame: &BeamFrame<'_>, asked: AskedBlock, block: &TriangleBlock) -> bool {
         let flat = FlatTriangles::<S::Eight>::of(frame, block);
-        let met = block.there & !flat.missed_by_all(frame);
+        let met = asked.triangles & !flat.fates_of_all(frame).missed;
         if met == 0 {
             return true;
         }
@@ -298,27 +348,30 @@ impl BlockVisitor for NearestHits<'_> {
         for at in bits(met) {
             let flat = FlatTriangles::<S::Many>::one(&rows, at);
             let triangle = block.triangle(at);
-            each_set::<S::Many>(self.asked, |first, set| {
-                let asked = set & !flat.missed(self.beam.lanes(first));
+            for (first, set) in LaneSets::<S::Many>::of(self.asked) {
+                let asked = set & !flat.fates(self.beam.lanes(first)).missed;
                 if asked != 0 {
                     let hits = self.beam.hits::<S::Many>(first, &triangle);
                     for lane in bits(asked) {
                         nearer |= self.nearest[first + lane].take(hits[lane], block.faces[at]);
                     }
                 }
-            });
+            }
         }
         if nearer {
             self.farthest = f32::NEG_INFINITY;
-            each_set::<S::Many>(self.asked, |first, set| {
+            for (first, set) in LaneSets::<S::Many>::of(self.asked) {
                 for at in bits(set).map(|lane| first + lane) {
                     let farthest = self.nearest[at].farthest(self.beam.shear, self.beam.rays[2][at], frame.shear.sign);
                     self.farthest = self.farthest.max(farthest);
                 }
-            });
+            }
         }
         true
     }
+}
+
+impl NearestVisitor for NearestHits<'_> {
     #[inline(always)]
     fn farthest(&self) -> f32 {
         self.farthest

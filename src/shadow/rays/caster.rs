@@ -2,6 +2,7 @@
 
 use super::beam::{BlockedBeam, FirstHits, MOST_RAYS};
 use super::lanes::SimdLevel;
+use super::raster::{BlockedCells, BlockedRaster, RasterFate, RayRaster};
 use super::search::{BlockedRay, FirstHit};
 use super::shear::Shear;
 use super::tree::WideTree;
@@ -65,12 +66,29 @@ impl RayCaster {
         if origins.is_empty() { 0 } else { self.level.run(BlockedBeam { tree: &self.tree, shear, origins }) }
     }
 
+    /// Finds which parallel rays of a raster are blocked; sets `found` if they differ. Returns also the
+    /// number of rays that were tested by themselves.
+    pub fn blocked_raster<P: Fn(u32, u32) -> DVec3>(
+        &self,
+        raster: &RayRaster<'_, P>,
+        shear: &Shear,
+        found: &mut BlockedCells,
+    ) -> (RasterFate, u64) {
+        self.level.run(BlockedRaster { tree: &self.tree, shear, raster, found })
+    }
+
     /// As [`RayCaster::first_hit`], for up to [`RayCaster::MOST_RAYS`] parallel rays at once; sets each one's entry in
     /// `hits`.
     pub fn first_hits(&self, origins: &[DVec3], shear: &Shear, hits: &mut [Option<(u32, f64)>]) {
         if !origins.is_empty() {
             self.level.run(FirstHits { tree: &self.tree, shear, origins, hits });
         }
+    }
+
+    /// Counts what [`RayCaster::blocked`] tests.
+    #[cfg(feature = "test-hooks")]
+    pub fn counted(&self, origin: DVec3, shear: &Shear) -> super::RayCounts {
+        self.level.run(super::counted::CountedRay { tree: &self.tree, shear, origin })
     }
 
     /// Returns the number of faces along a ray: the count that a shadow volume must have at its origin.

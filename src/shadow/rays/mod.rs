@@ -3,17 +3,25 @@
 
 mod beam;
 mod caster;
+mod cells;
+#[cfg(feature = "test-hooks")]
+mod counted;
 mod frame;
 mod lanes;
 #[cfg(feature = "test-hooks")]
 mod plain;
 mod prune;
+mod raster;
 mod search;
 mod shear;
 mod tree;
 
 pub use caster::RayCaster;
+pub use cells::CellSet;
+#[cfg(feature = "test-hooks")]
+pub use counted::RayCounts;
 pub use lanes::SimdLevel;
 #[cfg(feature = "test-hooks")]
 pub use plain::PlainCaster;
+pub use raster::{BlockedCells, RasterFate, RayRaster};
 pub use shear::Shear;

@@ -1,5 +1,5 @@
-//! What single precision can decide about rays and triangles: which rays certainly miss, and which triangles are
-//! certainly behind.
+//! What single precision can decide about rays and triangles: which rays certainly miss, which certainly hit, and which
+//! triangles are certainly behind.
 //!
 //! A triangle is projected along the rays onto the plane across their longest axis, as in the double-precision test. A
 //! ray misses it if one of the three edges' areas is certainly negative and another certainly positive. The error of
@@ -9,7 +9,8 @@
 //! ray's origin. The error of a corner in the plane is 8ηD, of an edge 8ηL, so that of each edge's area is at most
 //! 206ηLD, the third being the rest. The error of the double-precision test itself is below 2⁻⁴⁵D². So values farther
 //! from 0 than 320ηLD + 2⁻⁴⁵D² have the right sign in both. The error of the whole area is 72ηL₁L₂, and that of the
-//! volume by which a triangle is behind is 312ηL₁L₂D; in double precision they are 2⁻⁴⁴D² and 2⁻⁴⁴D³.
+//! volume by which a triangle is behind is 312ηL₁L₂D; in double precision they are 2⁻⁴⁴D² and 2⁻⁴⁴D³. A ray certainly
+//! hits a triangle if all three areas are certainly positive, and the triangle is certainly not behind.
 
 use super::frame::BeamFrame;
 use super::lanes::Lanes;
@@ -27,6 +28,11 @@ const AREA_DOUBLE: f32 = 1.0 / (1u64 << 42) as f32;
 const BEHIND_ROUNDINGS: f32 = 384.0 * ETA;
 const BEHIND_DOUBLE: f32 = 1.0 / (1u64 << 43) as f32;
 
+/// The roundings of a corner's height above the plane in which rays begin.
+const HEIGHT_ROUNDINGS: f32 = 24.0 * ETA;
+/// How far below that plane a triangle must lie, metres.
+const BELOW_M: f32 = 1.0 / 4096.0;
+
 /// Triangles in the plane across the rays, turned so that their areas are positive.
 #[derive(Clone, Copy)]
 pub(super) struct FlatTriangles<L> {
@@ -41,6 +47,23 @@ pub(super) struct FlatTriangles<L> {
     /// The change of a ray's volume with its place, and the volume beyond which the triangle is behind.
     across: [L; 3],
     behind: L,
+}
+
+/// The plane in which the rays of a frame begin, by their axes: its unit normal to the side to which they go, and the
+/// height of the reference above it.
+#[derive(Clone, Copy)]
+pub(super) struct StartPlane {
+    pub(super) normal: [f32; 3],
+    pub(super) height: f32,
+}
+
+/// What single precision is certain of, a bit for each lane.
+#[derive(Clone, Copy)]
+pub(super) struct Fates {
+    /// The double-precision test would find no hit.
+    pub(super) missed: u32,
+    /// The double-precision test would find a hit.
+    pub(super) hit: u32,
 }
 
 /// The number of values of a flat triangle.
@@ -68,6 +91,11 @@ fn corner<L: Lanes>(frame: &BeamFrame<'_>, block: &TriangleBlock, corner: usize)
 #[inline(always)]
 fn minus<L: Lanes>(one: [L; 3], other: [L; 3]) -> [L; 3] {
     [one[0].minus(other[0]), one[1].minus(other[1]), one[2].minus(other[2])]
+}
+
+#[inline(always)]
+fn dot<L: Lanes>(one: [L; 3], other: [L; 3]) -> L {
+    one[2].times_plus(other[2], one[1].times_plus(other[1], one[0].times(other[0])))
 }
 
 /// Projects a corner along the rays to the plane.
@@ -136,32 +164,54 @@ impl<L: Lanes> FlatTriangles<L> {
         ([one, self.area.minus(one).minus(last), last], along[2].times_plus(self.across[2], volume))
     }
 
-    /// The lanes in which a ray certainly misses the triangle.
+    /// What is certain of a ray, lane by lane.
     #[inline(always)]
-    pub(super) fn missed(&self, ray: [L; 3]) -> u32 {
+    pub(super) fn fates(&self, ray: [L; 3]) -> Fates {
         let ([one, other, last], volume) = self.areas(ray);
         let lowest = one.least(other).least(last);
         let highest = one.most(other).most(last);
         let beside = lowest.less(L::splat(0.0).minus(self.off)) & self.over.less(highest);
-        beside | self.behind.less(volume)
+        let before = volume.less(L::splat(0.0).minus(self.behind));
+        Fates { missed: beside | self.behind.less(volume), hit: self.off.less(lowest) & before }
     }
 
-    /// The triangles that all rays of a frame certainly miss.
+    /// What is certain of all rays of a frame, triangle by triangle.
     #[inline(always)]
-    pub(super) fn missed_by_all(&self, frame: &BeamFrame<'_>) -> u32 {
+    pub(super) fn fates_of_all(&self, frame: &BeamFrame<'_>) -> Fates {
         let [right, up, ahead] = frame.middle;
         let ([one, other, last], volume) = self.areas([L::splat(right), L::splat(up), L::splat(ahead)]);
         let [right, up, ahead] = frame.half;
         let half = [L::splat(right), L::splat(up), L::splat(ahead)];
         let [e, g] = self.edges;
         let third = [g[0].minus(e[0]), g[1].minus(e[1])];
-        let lowest = one.plus(swing(e, half)).least(other.plus(swing(third, half))).least(last.plus(swing(g, half)));
+        let (of_e, of_third, of_g) = (swing(e, half), swing(third, half), swing(g, half));
+        let highest = one.plus(of_e).least(other.plus(of_third)).least(last.plus(of_g));
+        let lowest = one.minus(of_e).least(other.minus(of_third)).least(last.minus(of_g));
         let one_sided = self.over.less(L::splat(f32::MIN));
-        let beside = lowest.less(L::splat(0.0).minus(self.off)) & one_sided;
-        let less = self.across[0].size().times(half[0]);
-        let less = self.across[1].size().times_plus(half[1], less);
-        let less = self.across[2].size().times_plus(half[2], less);
-        beside | self.behind.less(volume.minus(less))
+        let beside = highest.less(L::splat(0.0).minus(self.off)) & one_sided;
+        let swings = self.across[0].size().times(half[0]);
+        let swings = self.across[1].size().times_plus(half[1], swings);
+        let swings = self.across[2].size().times_plus(half[2], swings);
+        let before = volume.plus(swings).less(L::splat(0.0).minus(self.behind));
+        Fates { missed: beside | self.behind.less(volume.minus(swings)), hit: self.off.less(lowest) & before }
+    }
+
+    /// The triangles of the block that lie below the plane in which rays of a frame begin, so that all of them miss.
+    #[inline(always)]
+    pub(super) fn below(&self, frame: &BeamFrame<'_>, block: &TriangleBlock, plane: &StartPlane) -> u32 {
+        let [first, second, third] = [corner(frame, block, 0), corner(frame, block, 1), corner(frame, block, 2)];
+        let [right, up, ahead] = frame.reference;
+        let a = minus(first, [L::splat(right), L::splat(up), L::splat(ahead)]);
+        let (e, g) = (minus(second, first), minus(third, first));
+        let [x, y, z] = plane.normal;
+        let normal = [L::splat(x), L::splat(y), L::splat(z)];
+        let height = dot(a, normal).plus(L::splat(plane.height));
+        let highest = height.most(height.plus(dot(e, normal))).most(height.plus(dot(g, normal)));
+        let far = reach(a).plus(reach(e).plus(reach(g))).plus(L::splat(frame.size));
+        let low = far.times(L::splat(-HEIGHT_ROUNDINGS)).minus(L::splat(BELOW_M));
+        // the volume by which it is behind is larger than the error of the double-precision test
+        let volume = far.times(far).times(far).times(L::splat(BEHIND_DOUBLE));
+        highest.less(low) & volume.less(self.area.times(L::splat(BELOW_M)))
     }
 
     /// The values of all triangles, from which each can be taken singly.

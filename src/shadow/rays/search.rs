@@ -2,38 +2,89 @@
 
 use super::frame::{BeamFrame, around, reference};
 use super::lanes::{LaneWork, Lanes, Simd};
-use super::prune::FlatTriangles;
+use super::prune::{Fates, FlatTriangles};
 use super::shear::Shear;
-use super::tree::{BLOCK, EIGHT, MOST_DEPTH, TriangleBlock, WideTree};
+use super::tree::{BLOCK, EIGHT, MOST_DEPTH, TriangleBlock, WideNode, WideTree};
 use arrayvec::ArrayVec;
 use glam::{DVec3, Vec3};
 
-/// The most nodes and blocks on the stack: seven of each level, and the last level's eight.
+/// The most nodes and blocks on the stack of a search for the nearest: seven of each level, and the last level's eight.
 const MOST_WAITING: usize = MOST_DEPTH * 7 + 8;
 
 /// The visitor of the blocks that rays reach.
 pub(super) trait BlockVisitor {
-    /// Whether blocks are visited from near to far, up to the distance that matters.
-    const NEAREST_FIRST: bool;
+    /// Called for each node whose boxes are tested; for counts.
+    #[inline(always)]
+    fn enter(&mut self) {}
     /// Visits a block. Returns `false` to stop.
-    fn visit<S: Simd>(&mut self, frame: &BeamFrame<'_>, block: &TriangleBlock) -> bool;
+    fn visit<S: Simd>(&mut self, frame: &BeamFrame<'_>, asked: AskedBlock, block: &TriangleBlock) -> bool;
+}
+
+/// The visitor of blocks from near to far.
+pub(super) trait NearestVisitor: BlockVisitor {
     /// The greatest distance that matters, metres from the frame's plane.
     fn farthest(&self) -> f32;
 }
 
+/// A block, and which of its triangles are tested.
+#[derive(Clone, Copy)]
+pub(super) struct AskedBlock {
+    pub(super) at: u32,
+    /// A bit for each.
+    pub(super) triangles: u32,
+}
+
+#[inline(always)]
+fn visit<S: Simd, V: BlockVisitor>(tree: &WideTree, frame: &BeamFrame<'_>, child: u32, visitor: &mut V) -> bool {
+    let at = child & !BLOCK;
+    let block = &tree.blocks[at as usize];
+    visitor.visit::<S>(frame, AskedBlock { at, triangles: block.there }, block)
+}
+
+/// Visits the blocks that rays may meet, in any order. What waits is a node with the children that are left, as most
+/// searches end before they come to them.
 #[inline(always)]
 pub(super) fn traverse<S: Simd, V: BlockVisitor>(tree: &WideTree, frame: &BeamFrame<'_>, visitor: &mut V) {
+    let Some(mut node) = tree.nodes.first() else { return };
+    let mut waiting = ArrayVec::<(&WideNode, u32), MOST_DEPTH>::new();
+    visitor.enter();
+    let mut met = frame.enter::<S::Eight>(node, f32::INFINITY).0;
+    loop {
+        if met == 0 {
+            let Some(last) = waiting.pop() else { return };
+            (node, met) = last;
+        }
+        let child = node.children[met.trailing_zeros() as usize];
+        met &= met - 1;
+        if child & BLOCK != 0 {
+            if !visit::<S, V>(tree, frame, child, visitor) {
+                return;
+            }
+            continue;
+        }
+        if met != 0 {
+            waiting.push((node, met));
+        }
+        node = &tree.nodes[child as usize];
+        visitor.enter();
+        met = frame.enter::<S::Eight>(node, f32::INFINITY).0;
+    }
+}
+
+/// Visits the blocks that rays may meet from near to far, up to the distance that matters.
+#[inline(always)]
+pub(super) fn traverse_nearest<S: Simd, V: NearestVisitor>(tree: &WideTree, frame: &BeamFrame<'_>, visitor: &mut V) {
     let mut waiting = ArrayVec::<(u32, f32), MOST_WAITING>::new();
     if !tree.nodes.is_empty() {
         // begins with the root
         waiting.push((0, f32::NEG_INFINITY));
     }
     while let Some((at, near)) = waiting.pop() {
-        if V::NEAREST_FIRST && near > visitor.farthest() {
+        if near > visitor.farthest() {
             continue;
         }
         if at & BLOCK != 0 {
-            if !visitor.visit::<S>(frame, &tree.blocks[(at & !BLOCK) as usize]) {
+            if !visit::<S, V>(tree, frame, at, visitor) {
                 return;
             }
             continue;
@@ -41,20 +92,16 @@ pub(super) fn traverse<S: Simd, V: BlockVisitor>(tree: &WideTree, frame: &BeamFr
         let node = &tree.nodes[at as usize];
         let (mut met, near) = frame.enter::<S::Eight>(node, visitor.farthest());
         let mut soonest = [0.0; EIGHT];
-        if V::NEAREST_FIRST {
-            near.store(&mut soonest);
-        }
+        near.store(&mut soonest);
         let first = waiting.len();
         while met != 0 {
             let slot = met.trailing_zeros() as usize;
             met &= met - 1;
             waiting.push((node.children[slot], soonest[slot]));
-            if V::NEAREST_FIRST {
-                let mut place = waiting.len() - 1;
-                while place > first && waiting[place - 1].1 < waiting[place].1 {
-                    waiting.swap(place - 1, place);
-                    place -= 1;
-                }
+            let mut place = waiting.len() - 1;
+            while place > first && waiting[place - 1].1 < waiting[place].1 {
+                waiting.swap(place - 1, place);
+                place -= 1;
             }
         }
     }
@@ -72,17 +119,13 @@ impl<K: Fn(&[Vec3; 3]) -> bool> LaneWork for BlockedRay<'_, K> {
     type Output = bool;
     #[inline(always)]
     fn run<S: Simd>(self) -> bool {
-        let BlockedRay { tree, shear, origin, keep } = self;
-        let reference = reference(shear, origin);
-        let ray = around(shear, &reference, origin);
-        let frame = BeamFrame::new(shear, reference, ray, ray);
-        let mut search = AnyHit { shear, origin, ray, keep, hit: false };
-        traverse::<S, _>(tree, &frame, &mut search);
+        let (mut search, frame) = AnyHit::of(self.shear, self.origin, self.keep);
+        traverse::<S, _>(self.tree, &frame, &mut search);
         search.hit
     }
 }
 
-struct AnyHit<'a, K> {
+pub(super) struct AnyHit<'a, K> {
     shear: &'a Shear,
     origin: DVec3,
     ray: [f32; 3],
@@ -90,18 +133,24 @@ struct AnyHit<'a, K> {
     hit: bool,
 }
 
-impl<K: Fn(&[Vec3; 3]) -> bool> BlockVisitor for AnyHit<'_, K> {
-    const NEAREST_FIRST: bool = true;
+impl<'a, K> AnyHit<'a, K> {
+    /// The search for a ray, and its frame.
     #[inline(always)]
-    fn visit<S: Simd>(&mut self, frame: &BeamFrame<'_>, block: &TriangleBlock) -> bool {
-        let missed = FlatTriangles::<S::Eight>::of(frame, block).missed(splat(self.ray));
-        let blocks = |triangle: [Vec3; 3]| self.shear.hit(self.origin, &triangle).is_some() && (self.keep)(&triangle);
-        self.hit = bits(block.there & !missed).any(|at| blocks(block.triangle(at)));
-        !self.hit
+    pub(super) fn of(shear: &'a Shear, origin: DVec3, keep: K) -> (AnyHit<'a, K>, BeamFrame<'a>) {
+        let reference = reference(shear, origin);
+        let ray = around(shear, &reference, origin);
+        (AnyHit { shear, origin, ray, keep, hit: false }, BeamFrame::new(shear, reference, ray, ray))
     }
+}
+
+impl<K: Fn(&[Vec3; 3]) -> bool> BlockVisitor for AnyHit<'_, K> {
     #[inline(always)]
-    fn farthest(&self) -> f32 {
-        f32::INFINITY
+    fn visit<S: Simd>(&mut self, frame: &BeamFrame<'_>, asked: AskedBlock, block: &TriangleBlock) -> bool {
+        let Fates { missed, hit } = FlatTriangles::<S::Eight>::of(frame, block).fates(splat(self.ray));
+        let is_kept = |at| (self.keep)(&block.triangle(at));
+        let is_hit = |at| self.shear.hit(self.origin, &block.triangle(at)).is_some() && is_kept(at);
+        self.hit = bits(asked.triangles & hit).any(is_kept) || bits(asked.triangles & !missed & !hit).any(is_hit);
+        !self.hit
     }
 }
 
@@ -124,7 +173,7 @@ impl<K: Fn(&[Vec3; 3]) -> bool> LaneWork for FirstHit<'_, K> {
         let frame = BeamFrame::new(shear, reference, ray, ray);
         let mut search =
             NearestHit { shear, origin, ray, keep, nearest: NearestFace::NOTHING, farthest: f32::INFINITY };
-        traverse::<S, _>(tree, &frame, &mut search);
+        traverse_nearest::<S, _>(tree, &frame, &mut search);
         search.nearest.hit()
     }
 }
@@ -172,11 +221,10 @@ impl NearestFace {
 }
 
 impl<K: Fn(&[Vec3; 3]) -> bool> BlockVisitor for NearestHit<'_, K> {
-    const NEAREST_FIRST: bool = true;
     #[inline(always)]
-    fn visit<S: Simd>(&mut self, frame: &BeamFrame<'_>, block: &TriangleBlock) -> bool {
-        let missed = FlatTriangles::<S::Eight>::of(frame, block).missed(splat(self.ray));
-        for at in bits(block.there & !missed) {
+    fn visit<S: Simd>(&mut self, frame: &BeamFrame<'_>, asked: AskedBlock, block: &TriangleBlock) -> bool {
+        let missed = FlatTriangles::<S::Eight>::of(frame, block).fates(splat(self.ray)).missed;
+        for at in bits(asked.triangles & !missed) {
             let triangle = block.triangle(at);
             if let Some(distance) = self.shear.hit(self.origin, &triangle)
                 && (self.keep)(&triangle)
@@ -187,6 +235,9 @@ impl<K: Fn(&[Vec3; 3]) -> bool> BlockVisitor for NearestHit<'_, K> {
         }
         true
     }
+}
+
+impl<K: Fn(&[Vec3; 3]) -> bool> NearestVisitor for NearestHit<'_, K> {
     #[inline(always)]
     fn farthest(&self) -> f32 {
         self.farthest

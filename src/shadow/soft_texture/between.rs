@@ -49,7 +49,7 @@ impl SoftTexture {
     /// to those that see it at one of them the part that they are found to.
     pub fn add_between(&mut self, patches: Range<usize>, gap: &TextureGap<'_, impl Fn(u32) -> u32 + Sync>) {
         let mut sums = std::mem::take(&mut self.sums);
-        let judge = self.judge();
+        let judge = self.judge(&[]);
         let list = &judge.sought.patches.list[patches];
         let mut rest = match list {
             [first, .., last] => &mut sums[first.texels.start as usize..last.texels.end as usize],

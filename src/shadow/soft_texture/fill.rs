@@ -13,6 +13,7 @@
 use super::occluders::Occluders;
 use crate::mesh::Mesh;
 use crate::mesh::scan::{Coverage, TriangleSide};
+use crate::shadow::rays::{BlockedCells, CellSet};
 use crate::shadow::registered::{self, ClippedFace, ProjectedVertex, RasterProjection};
 use glam::DVec2;
 
@@ -25,20 +26,6 @@ pub enum Fill {
     Silhouettes,
 }
 
-/// The sides of each face: twice the edge's index, plus 1 if the face runs against it.
-pub(super) fn face_sides(mesh: &Mesh) -> Vec<[u32; 3]> {
-    let mut sides = vec![[u32::MAX; 3]; mesh.faces.len()];
-    for edge in 0..mesh.edges.len() {
-        for incidence in mesh.faces_at(edge) {
-            let side = (edge as u32) << 1 | u32::from(incidence.direction() < 0);
-            if let Some(slot) = sides[incidence.face() as usize].iter_mut().find(|slot| **slot == u32::MAX) {
-                *slot = side;
-            }
-        }
-    }
-    sides
-}
-
 /// Buffers for filling, which are reused.
 #[derive(Default)]
 pub(super) struct Scratch {
@@ -49,15 +36,11 @@ pub(super) struct Scratch {
     multiplicity: Vec<i32>,
     /// The edges whose sums were changed.
     touched: Vec<u32>,
+    /// Which texels of a patch are asked, and which of them are blocked.
+    pub(super) asked: CellSet,
+    pub(super) blocked: BlockedCells,
     /// Events, row by row, with one cell more than the patch's columns.
     events: Vec<i32>,
-}
-
-impl Scratch {
-    pub(super) fn new(mesh: &Mesh, fill: Fill) -> Scratch {
-        let edges = if fill == Fill::Silhouettes { mesh.edges.len() } else { 0 };
-        Scratch { multiplicity: vec![0; edges], ..Scratch::default() }
-    }
 }
 
 /// The covered cells of a patch.
@@ -79,7 +62,6 @@ impl CoveredCells<'_> {
 /// The casters, as filling needs them.
 pub(super) struct Casting<'a> {
     pub(super) mesh: &'a Mesh,
-    pub(super) sides: &'a [[u32; 3]],
     pub(super) occluders: &'a Occluders,
 }
 
@@ -116,6 +98,7 @@ impl Casting<'_> {
     ) -> CoveredCells<'a> {
         let in_row = width as usize + 1;
         let Scratch { found, multiplicity, touched, events, .. } = scratch;
+        multiplicity.resize(self.mesh.edges.len(), 0);
         events.clear();
         events.resize(in_row * height as usize, 0);
         let mut raster = Events { events, in_row, width: width.into(), height: height.into() };
@@ -128,7 +111,7 @@ impl Casting<'_> {
             // the sign of its visible area says whether the face is turned to the light
             let facing = if a.dot(b.cross(c)) < 0.0 { -1 } else { 1 };
             if registered::is_whole(&places) {
-                for side in self.sides[self.occluders.faces[at as usize] as usize] {
+                for side in self.occluders.sides[self.occluders.faces[at as usize] as usize] {
                     let edge = side >> 1;
                     let sum = &mut multiplicity[edge as usize];
                     *sum += if side & 1 == 0 { facing } else { -facing };

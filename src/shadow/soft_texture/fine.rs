@@ -17,7 +17,7 @@ impl SoftTexture {
         let patch = &self.patches.list[patch];
         let cell = self.patches.cell;
         let Some(raster) = raster(patch, cell, to_sun.extend(0.0)) else { return true };
-        let judge = self.judge();
+        let judge = self.judge(&[]);
         let shear = Shear::along(to_sun);
         let lift = judge.tie(patch) + raster.plane.truncate() * JUDGED_ABOVE_M;
         let near = |one: u16, other: u16| one.abs_diff(other) <= 1;

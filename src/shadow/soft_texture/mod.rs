@@ -21,6 +21,7 @@ mod fine;
 mod occluders;
 mod on_gpu;
 mod query;
+mod rectangles;
 
 pub use between::TextureGap;
 #[cfg(feature = "test-hooks")]
@@ -41,8 +42,8 @@ use occluders::Occluders;
 use on_gpu::AdapterDrawer;
 use query::{OccluderQuery, is_drawn, raster};
 use rayon::prelude::*;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock};
 
 /// The machine that fills hard shadows.
 #[derive(Clone)]
@@ -57,8 +58,10 @@ pub enum Painter {
 pub struct SoftTexture {
     casters: Mesh,
     patches: Arc<Patches>,
-    sides: Vec<[u32; 3]>,
-    occluders: Occluders,
+    /// The patches' indices, those that lie close together after each other.
+    order: Vec<u32>,
+    /// Found when textures are filled for the first time.
+    occluders: OnceLock<Occluders>,
     rays: RayCaster,
     choice: Choice,
     fill: Fill,
@@ -67,7 +70,7 @@ pub struct SoftTexture {
     /// For each texel the weights of the samples it sees, as far as the processor added them.
     sums: Vec<u32>,
     drawer: Option<AdapterDrawer>,
-    counts: [AtomicU64; 4],
+    counts: [AtomicU64; 5],
 }
 
 impl SoftTexture {
@@ -91,12 +94,12 @@ impl SoftTexture {
             Painter::OnGpu(gpu) => (Fill::Faces, Some(gpu)),
         };
         Ok(SoftTexture {
-            sides: fill::face_sides(&casters),
-            occluders: Occluders::new(&casters),
+            occluders: OnceLock::new(),
             rays: RayCaster::new(&casters, reach),
             drawer: gpu.map(|gpu| AdapterDrawer::new(gpu, &casters, &patches, choice)).transpose()?,
             casters,
             sums: vec![0; patches.texels.len()],
+            order: rectangles::along_a_curve(&patches),
             patches,
             choice,
             fill,
@@ -128,7 +131,7 @@ impl SoftTexture {
 
     /// The same, for the processor's sums.
     fn add_to(&self, samples: &[Sample], sums: &mut [u32]) -> Result<(), ShadowError> {
-        let judge = self.judge();
+        let judge = self.judge(samples);
         let drawer = self.drawer.as_ref();
         // what the adapter leaves to rays
         let mut left = vec![Vec::new(); if drawer.is_some() { samples.len() } else { 0 }];
@@ -139,28 +142,42 @@ impl SoftTexture {
                 *left = rest;
             }
         }
-        work_of(&self.patches, sums).into_par_iter().for_each_init(
-            || Scratch::new(judge.casting.mesh, judge.fill),
-            |scratch, (at, patch, sums)| {
-                let on_adapter = drawer.is_some() && is_drawn(patch, judge.sought.choice);
-                for (number, sample) in samples.iter().enumerate() {
-                    if !on_adapter {
-                        judge.add(patch, sample, sums, scratch);
-                    } else if left[number].binary_search(&at).is_ok() {
-                        judge.cast(patch, sample, sums);
-                    }
+        self.work_on(sums).into_par_iter().for_each_init(Scratch::default, |scratch, (at, patch, sums)| {
+            let on_adapter = drawer.is_some() && is_drawn(patch, judge.sought.choice);
+            for (number, sample) in samples.iter().enumerate() {
+                if !on_adapter {
+                    judge.add(patch, sample, sums, scratch);
+                } else if left[number].binary_search(&at).is_ok() {
+                    judge.cast(patch, sample, sums, scratch);
                 }
-            },
-        );
+            }
+        });
         Ok(())
     }
 
-    /// The processor's judge of patches.
-    fn judge(&self) -> PatchJudge<'_> {
-        let SoftTexture { casters, patches, sides, occluders, rays, choice, fill, culling, counts, .. } = self;
+    /// The patches, each with its index and its texels' sums, neighbours after each other.
+    fn work_on<'a>(&'a self, sums: &'a mut [u32]) -> Vec<(u32, &'a Patch, &'a mut [u32])> {
+        let mut rest = sums;
+        let mut work = Vec::with_capacity(self.patches.list.len());
+        for (at, patch) in (0..).zip(&self.patches.list) {
+            let (sums, after) = rest.split_at_mut(patch.texels.len());
+            rest = after;
+            work.push(Some((at, patch, sums)));
+        }
+        self.order.iter().filter_map(|&at| work[at as usize].take()).collect()
+    }
+
+    /// The judge of patches for some samples.
+    fn judge(&self, samples: &[Sample]) -> PatchJudge<'_> {
+        let SoftTexture { casters, patches, rays, choice, fill, culling, counts, .. } = self;
+        let fills = match choice {
+            Choice::Texture => true,
+            Choice::Rays => false,
+            Choice::Auto => self.is_on_adapter() || samples.iter().any(|sample| sample.light.w != 0.0),
+        };
+        let occluders = (fills && !samples.is_empty()).then(|| self.occluders.get_or_init(|| Occluders::new(casters)));
         let sought = OccluderQuery { patches, occluders, culling: *culling, choice: *choice };
-        let casting = Casting { mesh: casters, sides, occluders };
-        PatchJudge { sought, rays, casting, fill: *fill, counts }
+        PatchJudge { sought, rays, casters, fill: *fill, counts }
     }
 
     /// Whether the graphics adapter fills textures.
@@ -175,8 +192,9 @@ impl SoftTexture {
 
     /// How patches were judged so far.
     pub fn judged(&self) -> PatchJudgements {
-        let [textures, texture_texels, faces, rays] = [0, 1, 2, 3].map(|at| self.counts[at].load(Ordering::Relaxed));
-        PatchJudgements { textures, texture_texels, faces, rays }
+        let [textures, texture_texels, faces, rays, rectangle_texels] =
+            self.counts.each_ref().map(|count| count.load(Ordering::Relaxed));
+        PatchJudgements { textures, texture_texels, faces, rays, rectangle_texels }
     }
 
     /// The graphics adapter's memory that is used, bytes; 0 without an adapter.
@@ -212,21 +230,10 @@ impl SoftTexture {
     }
 }
 
-/// The patches, each with its index and its texels' sums.
-fn work_of<'a>(patches: &'a Patches, sums: &'a mut [u32]) -> Vec<(u32, &'a Patch, &'a mut [u32])> {
-    let mut rest = sums;
-    let mut work = Vec::with_capacity(patches.list.len());
-    for (at, patch) in (0..).zip(&patches.list) {
-        let (sums, after) = rest.split_at_mut(patch.texels.len());
-        rest = after;
-        work.push((at, patch, sums));
-    }
-    work
-}
-
-fn count(counts: &[AtomicU64; 4], judged: PatchJudgements) {
-    let PatchJudgements { textures, texture_texels, faces, rays } = judged;
-    for (count, more) in counts.iter().zip([textures, texture_texels, faces, rays]) {
+fn count(counts: &[AtomicU64; 5], judged: PatchJudgements) {
+    let PatchJudgements { textures, texture_texels, faces, rays, rectangle_texels } = judged;
+    let more = [textures, texture_texels, faces, rays, rectangle_texels];
+    for (count, more) in counts.iter().zip(more).filter(|(_, more)| *more > 0) {
         count.fetch_add(more, Ordering::Relaxed);
     }
 }
@@ -238,20 +245,24 @@ const STRIP: usize = 16;
 struct PatchJudge<'a> {
     sought: OccluderQuery<'a>,
     rays: &'a RayCaster,
-    casting: Casting<'a>,
+    casters: &'a Mesh,
     fill: Fill,
-    counts: &'a [AtomicU64; 4],
+    counts: &'a [AtomicU64; 5],
 }
 
 impl PatchJudge<'_> {
     /// Adds a sample's weight to the texels of a patch that see it.
     fn add(&self, patch: &Patch, sample: &Sample, sums: &mut [u32], scratch: &mut Scratch) {
-        let Some(raster) = raster(patch, self.sought.patches.cell, sample.light) else { return };
-        let Some(onto) = RasterProjection::new(&raster, sample.light) else { return };
-        if !self.sought.find(patch, &onto, &mut scratch.waiting, &mut scratch.found) {
-            self.cast(patch, sample, sums);
+        if self.sought.occluders.is_none() {
+            self.cast(patch, sample, sums, scratch);
             return;
         }
+        let Some(raster) = raster(patch, self.sought.patches.cell, sample.light) else { return };
+        let Some(onto) = RasterProjection::new(&raster, sample.light) else { return };
+        let Some(occluders) = self.sought.find(patch, &onto, &mut scratch.waiting, &mut scratch.found) else {
+            self.cast(patch, sample, sums, scratch);
+            return;
+        };
         let judged = PatchJudgements {
             textures: 1,
             texture_texels: sums.len() as u64,
@@ -263,7 +274,8 @@ impl PatchJudge<'_> {
             sums.iter_mut().for_each(|sum| *sum += sample.weight);
             return;
         }
-        let covered = self.casting.covered(self.fill, &onto, (patch.width, patch.height), scratch);
+        let casting = Casting { mesh: self.casters, occluders };
+        let covered = casting.covered(self.fill, &onto, (patch.width, patch.height), scratch);
         for (sum, texel) in sums.iter_mut().zip(self.texels(patch)) {
             if !covered.at(texel.column.into(), texel.row.into()) {
                 *sum += sample.weight;
@@ -283,8 +295,12 @@ impl PatchJudge<'_> {
     }
 
     /// The same by rays.
-    fn cast(&self, patch: &Patch, sample: &Sample, sums: &mut [u32]) {
+    fn cast(&self, patch: &Patch, sample: &Sample, sums: &mut [u32], scratch: &mut Scratch) {
         let Some(raster) = raster(patch, self.sought.patches.cell, sample.light) else { return };
+        if self.sought.choice == Choice::Auto && sample.light.w == 0.0 {
+            self.divide(patch, &raster, sample, sums, scratch);
+            return;
+        }
         count(self.counts, PatchJudgements { rays: sums.len() as u64, ..PatchJudgements::default() });
         let tie = self.tie(patch);
         let lift = raster.plane.truncate() * JUDGED_ABOVE_M;

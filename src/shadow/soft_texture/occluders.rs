@@ -20,6 +20,8 @@ pub(super) struct Occluders {
     /// The mesh's face index of each.
     pub(super) faces: Vec<u32>,
     pub(super) corners: Vec<[Vec3; 3]>,
+    /// By the mesh's face index: twice each edge's index, plus 1 if the face runs against it.
+    pub(super) sides: Vec<[u32; 3]>,
 }
 
 /// Linear forms that are positive inside: the sides of the pyramid.
@@ -50,6 +52,20 @@ impl Sides {
     }
 }
 
+/// The sides of each face: twice the edge's index, plus 1 if the face runs against it.
+fn face_sides(mesh: &Mesh) -> Vec<[u32; 3]> {
+    let mut sides = vec![[u32::MAX; 3]; mesh.faces.len()];
+    for edge in 0..mesh.edges.len() {
+        for incidence in mesh.faces_at(edge) {
+            let side = (edge as u32) << 1 | u32::from(incidence.direction() < 0);
+            if let Some(slot) = sides[incidence.face() as usize].iter_mut().find(|slot| **slot == u32::MAX) {
+                *slot = side;
+            }
+        }
+    }
+    sides
+}
+
 impl Occluders {
     pub(super) fn new(mesh: &Mesh) -> Occluders {
         let box_of = |face: usize| {
@@ -60,7 +76,8 @@ impl Occluders {
         let tree =
             (!boxes.is_empty()).then(|| build_bvh2(&boxes, BvhBuildParams::fast_build(), &mut Duration::default()));
         let faces = tree.as_ref().map_or(Vec::new(), |tree| tree.primitive_indices.clone());
-        Occluders { tree, corners: faces.iter().map(|&face| mesh.corners(face as usize)).collect(), faces }
+        let corners = faces.iter().map(|&face| mesh.corners(face as usize)).collect();
+        Occluders { tree, corners, faces, sides: face_sides(mesh) }
     }
 
     /// Finds the indices, in the tree's order, of every face that may be between the light and the patch (without

@@ -201,12 +201,11 @@ impl AdapterDrawer {
                 let find = |(waiting, found): &mut (Vec<u32>, Vec<u32>), slot: usize| {
                     let patch = &patches.list[self.drawn[slot] as usize];
                     let onto = RasterProjection::new(&raster(patch, patches.cell, sample.light)?, sample.light)?;
-                    if !sought.find(patch, &onto, waiting, found) {
+                    let Some(Occluders { corners, faces, .. }) = sought.find(patch, &onto, waiting, found) else {
                         return Some(Err(self.drawn[slot]));
-                    }
+                    };
                     // the adapter's single precision must not decide on faces in the patch itself
                     let above = |corner: Vec3| onto.height.dot(corner.as_dvec3().extend(1.0)) > 0.0;
-                    let Occluders { corners, faces, .. } = sought.occluders;
                     let drawn = found.iter().filter(|at| corners[**at as usize].into_iter().any(above));
                     let indices = drawn.flat_map(|at| casters.faces[faces[*at as usize] as usize]).collect();
                     let onto = in_viewport(&onto, (patch.width, patch.height), sample.light);

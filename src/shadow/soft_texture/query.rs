@@ -23,7 +23,7 @@ pub enum Choice {
     Texture,
     /// By one ray per texel and sample.
     Rays,
-    /// By the cheaper of both.
+    /// By the cheapest way, for the sun by rays from rectangles of texels.
     Auto,
 }
 
@@ -38,10 +38,13 @@ pub struct PatchJudgements {
     pub faces: u64,
     /// The number of rays.
     pub rays: u64,
+    /// The number of texels that were decided as part of a rectangle, without a ray of their own.
+    pub rectangle_texels: u64,
 }
 
 /// With [`Choice::Auto`] a texture is filled if at most this many faces per texel lie between patch and sample;
-/// otherwise rays cost less. Measured in `docs/benchmarks/receivers.md`.
+/// otherwise rays cost less. Only for lamps and on an adapter: towards the sun the processor casts rays from rectangles
+/// of texels. Measured in `docs/benchmarks/receivers.md`.
 pub const MOST_FACES_A_TEXEL: usize = 2;
 
 /// With [`Choice::Auto`], patches with fewer texels are always judged by rays, since searching for occluders costs
@@ -64,28 +67,30 @@ pub(super) fn is_drawn(patch: &Patch, choice: Choice) -> bool {
 /// The request for occluders.
 pub(super) struct OccluderQuery<'a> {
     pub(super) patches: &'a Patches,
-    pub(super) occluders: &'a Occluders,
+    /// `None` if no texture is filled.
+    pub(super) occluders: Option<&'a Occluders>,
     pub(super) culling: bool,
     pub(super) choice: Choice,
 }
 
-impl OccluderQuery<'_> {
-    /// Finds the occluders between a patch and a light; `false` if rays should be cast instead.
+impl<'a> OccluderQuery<'a> {
+    /// Finds the occluders between a patch and a light; `None` if rays should be cast instead.
     pub(super) fn find(
         &self,
         patch: &Patch,
         onto: &RasterProjection,
         waiting: &mut Vec<u32>,
         found: &mut Vec<u32>,
-    ) -> bool {
+    ) -> Option<&'a Occluders> {
         let most = match self.choice {
-            _ if patch.alone.is_some() => return false,
-            Choice::Rays => return false,
+            _ if patch.alone.is_some() => return None,
+            Choice::Rays => return None,
             Choice::Texture => usize::MAX,
-            Choice::Auto if patch.texels.len() < FEWEST_FILLED => return false,
+            Choice::Auto if patch.texels.len() < FEWEST_FILLED => return None,
             Choice::Auto => patch.texels.len() * MOST_FACES_A_TEXEL,
         };
-        self.occluders.before(onto, (patch.width, patch.height), self.culling, most, waiting, found)
+        let size = (patch.width, patch.height);
+        self.occluders.filter(|occluders| occluders.before(onto, size, self.culling, most, waiting, found))
     }
 }
 
