@@ -60,9 +60,9 @@ pub fn envelope(
     sink: Sink<'_>,
     on_event: &mut OnEvent<'_>,
 ) -> Result<EnvelopeAnswer, DeliverError> {
+    let (plot, grid, inside) = plot(site, &asked)?;
     let open = sink.open(&FILES.map(PathBuf::from), None)?;
     note(open.note(), on_event)?;
-    let (plot, grid, inside) = plot(site, &asked)?;
     let name = name(&asked.demand);
     note_letters([site.place.name.as_str(), name.as_str()], on_event)?;
     let mut notes = site.notes.clone();
