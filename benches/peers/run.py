@@ -1,16 +1,22 @@
 #!/usr/bin/env python3
 """Gnomon beside what one could take instead, as whole processes, in one run: prints tables in Markdown.
 
-    python benches/peers/run.py CITY.glb [--runs 7] [--tests T1,T2,T3,T4] [--raster PROGRAM] [--embree PROGRAM]
+    python benches/peers/run.py CITY.glb [--runs 7] [--tests T1,T2,T3,T4,F1,F2] [--raster PROGRAM] [--embree PROGRAM]
+                                         [--embree-surfaces PROGRAM]
                                          [--peer 'NAME=COMMAND']...
 
-The programs of others are for the reader to install. Two kinds have options of their own, as they take part in all tests:
+The programs of others are for the reader to install. Two kinds have options of their own, as they take part in several tests:
 --raster, a plain raster of projected triangles, and --embree, ray casting by Embree in packets; both are called as
 
     PROGRAM GLB SUNS N WEST SOUTH SIDE THREADS [PACKET] MODE OUT [robust]
 
-with MODE mask, hours or top. Any other program joins with --peer, where COMMAND may use {glb}, {suns} (a line for each
-instant: the unit vector to the sun, x east, y north, z up), {n} (cells a side), {threads}, {test} (T1 to T4) and {out}.
+with MODE mask, hours or top. --embree-surfaces is Embree's program for façades and roofs (F1, F2), called as
+
+    PROGRAM GLB SUNS CELL THREADS OUT
+
+with points CELL metres apart on every face. Any other program joins with --peer, where COMMAND may use {glb}, {suns} (a
+line for each instant: the unit vector to the sun, x east, y north, z up), {n} (cells a side; F1, F2: a texel's side in
+metres), {threads}, {test} (T1 to T4, F1, F2) and {out}.
 
 Programs take turns, so that ratios hold whatever else the machine does: each is the median of its turns' own ratios.
 Seconds are medians; CPU is user and system time together; the peak is the largest resident size.
@@ -33,13 +39,16 @@ region = [-400, -400, 400, 400]
 """
 T2 = "--date 2026-09-18 --from 07:00 --to 15:00 --step 1h"
 YEAR = "--from-date 2026-01-01 --to-date 2026-12-31 --step 1h"
-# test: cells a side, the study, what Gnomon is asked, the raster's program and Embree's
+SURFACES = "profile {site} {study} --patch-cell {n} --receivers surfaces --resolution step --write json --out {out}"
+# test: cells a side (on façades the texels' side in metres), the study, what Gnomon is asked, the raster's program and Embree's
 TESTS = {
     "T1": (2048, "--at 2026-09-18T13:00", "shadow {site} {study} --size 2048 --receivers ground --mask {out}.png", "mask"),
     "T2": (2048, T2, "profile {site} {study} --size 2048 --receivers ground --out {out}", "mask"),
     "T2 tif,json": (2048, T2, "profile {site} {study} --size 2048 --receivers ground --write tif,json --out {out}", "mask"),
     "T3": (1024, YEAR, "profile {site} {study} --size 1024 --receivers ground --write tif,json --out {out}", "hours"),
     "T4": (2048, T2, "profile {site} {study} --size 2048 --receivers top --write tif,json --out {out}", "top"),
+    "F1": (0.5, T2, SURFACES, "surfaces"),
+    "F2": (0.25, T2, SURFACES, "surfaces"),
 }
 
 
@@ -53,6 +62,7 @@ def main():
     ask.add_argument("--threads", type=int, default=os.cpu_count())
     ask.add_argument("--raster", type=Path)
     ask.add_argument("--embree", type=Path)
+    ask.add_argument("--embree-surfaces", type=Path)
     ask.add_argument("--peer", action="append", default=[], metavar="NAME=COMMAND")
     asked = ask.parse_args()
     glb = asked.model.resolve()
@@ -76,14 +86,19 @@ def compare(asked, glb, folder):
         ours = gnomon.format(command=command.format(out=folder / "gnomon", **fill))
         commands = {"Gnomon": ours}
         raster = f"{fill['glb']} {suns} {cells} {REGION[0]} {REGION[1]} {REGION[2]} {asked.threads}"
-        if asked.raster and mode != "top":
+        on_surfaces = mode == "surfaces"
+        if asked.raster and mode in ("mask", "hours"):
             commands["plain raster"] = f"{asked.raster} {raster} {mode} {folder / 'raster.bin'}"
-        if asked.embree:
+        if asked.embree_surfaces and on_surfaces:
+            program = f"{asked.embree_surfaces} {glb} {suns} {cells} {asked.threads}"
+            commands["Embree, packets of 16"] = f"{program} {folder / 'embree.bin'}"
+        if asked.embree and not on_surfaces:
             commands["Embree, packets of 16"] = f"{asked.embree} {raster} 16 {mode} {folder / 'embree.bin'} robust"
         for peer in asked.peer:
             name, _, peer_command = peer.partition("=")
             commands[name] = peer_command.format(out=folder / "peer", **fill)
-        table(test, cells, len(suns.read_text().splitlines()), commands, asked.runs if test != "T3" else min(asked.runs, 2))
+        judged = f"texels of {cells} m" if on_surfaces else f"{cells} × {cells} cells"
+        table(test, judged, len(suns.read_text().splitlines()), commands, asked.runs if test != "T3" else min(asked.runs, 2))
 
 
 def write_suns(gnomon, site, study, path):
@@ -100,12 +115,12 @@ def write_suns(gnomon, site, study, path):
     return path
 
 
-def table(test, cells, instants, commands, runs):
+def table(test, judged, instants, commands, runs):
     turns = {name: [] for name in commands}
     for _ in range(runs):
         for name, command in commands.items():
             turns[name].append(run(name, command))
-    print(f"\n## {test}: {instants} instants, {cells} × {cells} cells, {runs} runs\n")
+    print(f"\n## {test}: {instants} instants, {judged}, {runs} runs\n")
     print("| program | wall, s | CPU, s | peak, MiB | wall, times Gnomon's | CPU, times Gnomon's |\n|---|---|---|---|---|---|")
     ours = turns["Gnomon"]
     for name, taken in turns.items():

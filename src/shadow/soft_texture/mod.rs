@@ -11,7 +11,8 @@
 //! stands on it; the paper's factor of an unoccluded light (`unoccluded`, a hook for tests) is computed separately, as
 //! hours do not need it.
 //!
-//! Where it fails: a texel has the value of its centre; and with many tiny patches, rays cost less ([`Choice::Auto`]).
+//! Where it fails: a texel has the value of its centre; and rays cost less with many tiny patches, and towards the sun
+//! ([`Choice::Auto`], [`rectangles`]).
 
 mod between;
 #[cfg(feature = "test-hooks")]
