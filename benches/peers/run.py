@@ -1,16 +1,22 @@
 #!/usr/bin/env python3
 """Gnomon beside what one could take instead, as whole processes, in one run: prints tables in Markdown.
 
-    python benches/peers/run.py CITY.glb [--runs 7] [--tests T1,T2,T3,T4,minutes,low,probes,facades] [--raster PROGRAM]
-                                         [--embree PROGRAM] [--peer 'NAME=COMMAND']...
+    python benches/peers/run.py CITY.glb [--runs 7] [--tests T1,T2,T3,T4,F1,F2,minutes,low,probes,facades] [--raster PROGRAM]
+                                         [--embree PROGRAM] [--embree-surfaces PROGRAM]
+                                         [--peer 'NAME=COMMAND']...
 
-The programs of others are for the reader to install. Two kinds have options of their own, as they take part in all tests:
+The programs of others are for the reader to install. Two kinds have options of their own, as they take part in several tests:
 --raster, a plain raster of projected triangles, and --embree, ray casting by Embree in packets; both are called as
 
     PROGRAM GLB SUNS N WEST SOUTH SIDE THREADS [PACKET] MODE OUT [robust]
 
-with MODE mask, hours or top. Any other program joins with --peer, where COMMAND may use {glb}, {suns} (a line for each
-instant: the unit vector to the sun, x east, y north, z up), {n} (cells a side), {threads}, {test} (T1 to T4) and {out}.
+with MODE mask, hours or top. --embree-surfaces is Embree's program for façades and roofs (F1, F2), called as
+
+    PROGRAM GLB SUNS CELL THREADS OUT
+
+with points CELL metres apart on every face. Any other program joins with --peer, where COMMAND may use {glb}, {suns} (a
+line for each instant: the unit vector to the sun, x east, y north, z up), {n} (cells a side; F1, F2: a texel's side in
+metres), {threads}, {test} (T1 to T4, F1, F2) and {out}.
 
 Gnomon's hours are those of the instants alone, as the others' are (--resolution step); T2 and T4 have a further row with
 hours to the minute, and T4 one of rays alone. Behind the letters come other tests: minutes, eight hours by the minute on
@@ -43,7 +49,8 @@ YEAR = "--from-date 2026-01-01 --to-date 2026-12-31 --step 1h"
 MINUTES = "--date 2026-09-18 --from 07:00 --to 15:00 --step 1min"
 PROFILE = "profile {site} {study}"
 HOURS = f"{PROFILE} --write tif,json"
-# test: cells a side, the study, what Gnomon is asked, the raster's program and Embree's
+SURFACES = "profile {site} {study} --patch-cell {n} --receivers surfaces --resolution step --write json --out {out}"
+# test: cells a side (on façades the texels' side in metres), the study, what Gnomon is asked, the raster's program and Embree's
 TESTS = {
     "T1": (2048, "--at 2026-09-18T13:00", "shadow {site} {study} --size 2048 --receivers ground --mask {out}.png", "mask"),
     "T2": (2048, T2, f"{PROFILE} --size 2048 --receivers ground --resolution step --out {{out}}", "mask"),
@@ -58,6 +65,8 @@ TESTS = {
         "shadow {site} {study} --size 2048 --receivers top --mask {out}.png",
         "top",
     ),
+    "F1": (0.5, T2, SURFACES, "surfaces"),
+    "F2": (0.25, T2, SURFACES, "surfaces"),
 }
 # what else Gnomon is asked in the same table
 FURTHER = {
@@ -82,6 +91,7 @@ def main():
     ask.add_argument("--threads", type=int, default=os.cpu_count())
     ask.add_argument("--raster", type=Path)
     ask.add_argument("--embree", type=Path)
+    ask.add_argument("--embree-surfaces", type=Path)
     ask.add_argument("--peer", action="append", default=[], metavar="NAME=COMMAND")
     asked = ask.parse_args()
     glb = asked.model.resolve()
@@ -107,14 +117,19 @@ def compare(asked, glb, folder):
         for name, further in FURTHER.get(test, {}).items():
             commands[name] = gnomon.format(command=further.format(out=folder / "further", **fill))
         raster = f"{fill['glb']} {suns} {cells} {REGION[0]} {REGION[1]} {REGION[2]} {asked.threads}"
-        if asked.raster and mode != "top":
+        on_surfaces = mode == "surfaces"
+        if asked.raster and mode in ("mask", "hours"):
             commands["plain raster"] = f"{asked.raster} {raster} {mode} {folder / 'raster.bin'}"
-        if asked.embree:
+        if asked.embree_surfaces and on_surfaces:
+            program = f"{asked.embree_surfaces} {glb} {suns} {cells} {asked.threads}"
+            commands["Embree, packets of 16"] = f"{program} {folder / 'embree.bin'}"
+        if asked.embree and not on_surfaces:
             commands["Embree, packets of 16"] = f"{asked.embree} {raster} 16 {mode} {folder / 'embree.bin'} robust"
         for peer in asked.peer:
             name, _, peer_command = peer.partition("=")
             commands[name] = peer_command.format(out=folder / "peer", **fill)
-        title = f"{test}: {len(suns.read_text().splitlines())} instants, {cells} × {cells} cells"
+        judged = f"texels of {cells} m" if on_surfaces else f"{cells} × {cells} cells"
+        title = f"{test}: {len(suns.read_text().splitlines())} instants, {judged}"
         table(title, commands, asked.runs if test not in ("T3", "minutes") else min(asked.runs, 2))
     if "probes" in asked.tests.split(","):
         probes(asked, folder)

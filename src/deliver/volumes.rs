@@ -46,7 +46,7 @@ pub fn volumes(
         return Err(no_caster(site).into());
     }
     tell(on_event, Event::Stage("volumes"))?;
-    let plane = (site.ground.kind == GroundKind::Terrain).then(|| site.worded(note_plane(site.ground.level)));
+    let plane = (site.ground.kind == GroundKind::Terrain).then(|| site.by_file.worded(note_plane(site.ground.level)));
     study::note_models(plane.as_slice(), on_event)?;
     let mut notes: Vec<Message> = site.notes.iter().cloned().chain(plane).collect();
     note_extent(&found, instant, &mut |event| {
@@ -77,7 +77,7 @@ fn no_caster(site: &Site) -> StudyError {
         "see ", setting("[ground]", "level", "`level` in [ground]"), " and ",
         setting("[[model]]", "casts", "`casts` under [[model]]")
     ];
-    StudyError::NoVolume(site.worded(message))
+    StudyError::NoVolume(site.by_file.worded(message))
 }
 
 /// A note that the volumes end at a plane, above or below the terrain.

@@ -1,7 +1,7 @@
 //! What the site file gives: later messages blame the file for it, and name no keys where there is no file.
 
 use super::error::FieldLocation;
-use super::{Overrides, Site, WrittenSite};
+use super::{Overrides, WrittenSite};
 use crate::choice::{Method, Misfit};
 use crate::message::Message;
 
@@ -21,17 +21,15 @@ impl GivenByFile {
         let technique = is_of_file.then(|| (method, written.key("study", "technique")));
         GivenByFile { is_bare_model: written.is_bare_model(), technique }
     }
-}
 
-impl Site {
     /// A message about the site, which names no keys of a site file where there is none.
     pub(crate) fn worded(&self, message: Message) -> Message {
-        if self.by_file.is_bare_model { message.of_bare_model() } else { message }
+        if self.is_bare_model { message.of_bare_model() } else { message }
     }
 
     /// Where the site file names the technique that does not fit, if it does.
     pub(crate) fn technique_at(&self, misfit: &Misfit) -> Option<&FieldLocation> {
         let Misfit::Technique { method, .. } = misfit else { return None };
-        self.by_file.technique.as_ref().filter(|(of_file, _)| of_file == method).map(|(_, at)| at)
+        self.technique.as_ref().filter(|(of_file, _)| of_file == method).map(|(_, at)| at)
     }
 }

@@ -230,7 +230,7 @@ fn no_device(why: &str) -> Message {
 impl StudyError {
     /// What does not fit of a site's choices.
     pub(super) fn of_site(site: &Site, misfit: Misfit) -> StudyError {
-        match site.technique_at(&misfit) {
+        match site.by_file.technique_at(&misfit) {
             Some(at) => StudyError::FileMisfit { misfit, at: at.clone() },
             None => misfit.into(),
         }

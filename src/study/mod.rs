@@ -28,6 +28,7 @@ pub mod live;
 mod machine;
 mod openness;
 mod outcome;
+mod part_sum;
 mod patch_sum;
 mod patches;
 #[doc(hidden)]
@@ -35,6 +36,7 @@ pub mod plot_cells;
 #[doc(hidden)]
 pub mod probe;
 mod profile;
+mod search_parts;
 mod settle;
 mod site_view;
 #[doc(hidden)]

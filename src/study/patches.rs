@@ -288,7 +288,7 @@ fn note_patches(site: &Site, patches: &Patches, on_event: &mut OnEvent<'_>) -> R
             "no component that receives has a surface";
             "see ", setting("[[model]]", "receives", "`receives` under [[model]]")
         ];
-        return Err(StudyError::NoPatch(site.worded(message)));
+        return Err(StudyError::NoPatch(site.by_file.worded(message)));
     }
     if patches.cell > patches.asked_cell {
         let (cell, asked) = (patches.cell, patches.asked_cell);
@@ -296,7 +296,7 @@ fn note_patches(site: &Site, patches: &Patches, on_event: &mut OnEvent<'_>) -> R
             format!("surfaces have texels of {cell:.3} m instead of {asked:?} m, which would be too many");
             "leave components out with ", setting("[[model]]", "receives", "`receives` under [[model]]"), " to have finer ones"
         ];
-        tell(on_event, Event::Note(site.worded(note)))?;
+        tell(on_event, Event::Note(site.by_file.worded(note)))?;
     }
     let left_out = [
         (patches.left_out.doubled_m2, "exist twice and count once"),

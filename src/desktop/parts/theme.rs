@@ -1,7 +1,9 @@
 //! The look of the window: one accent colour, quiet panels, the fonts of the drawings.
 
+use crate::export::figure;
 use crate::look::LOOK;
 use eframe::egui::epaint::Shadow;
+use eframe::egui::epaint::text::{FallbackRequest, FontInsert};
 use eframe::egui::style::{HandleShape, Selection, WidgetVisuals, Widgets};
 use eframe::egui::{
     self, Color32, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Stroke, TextStyle, Theme,
@@ -37,6 +39,13 @@ pub(in crate::desktop) fn accent(visuals: &egui::Visuals) -> Color32 {
     if visuals.dark_mode { ACCENT_ON_DARK } else { ACCENT }
 }
 
+/// A font of the system for letters that the drawings' font lacks.
+fn system_font(request: &FallbackRequest<'_>) -> Option<FontInsert> {
+    let (font, index) = figure::face_with(request.cluster.chars().next()?)?;
+    let name = format!("system font for {}", request.cluster);
+    Some(FontInsert::new(&name, FontData { index, ..FontData::from_owned(font) }, Vec::new()))
+}
+
 /// Sets fonts, spaces and colours of both themes.
 pub(in crate::desktop) fn set(context: &egui::Context) {
     let mut fonts = FontDefinitions::empty();
@@ -50,6 +59,9 @@ pub(in crate::desktop) fn set(context: &egui::Context) {
         }
     }
     context.set_fonts(fonts);
+    // names of components and of rules may be in any script; what no font of the system has either is drawn as a box
+    context.add_font_provider(Arc::new(system_font));
+    context.set_missing_glyph_policy(egui::MissingGlyphPolicy::Tofu);
     context.all_styles_mut(|style| {
         style.text_styles = [
             (TextStyle::Small, FontId::proportional(11.5)),

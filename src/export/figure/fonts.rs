@@ -182,6 +182,14 @@ pub fn without_face(text: &str) -> String {
     missing
 }
 
+/// A font of the system that has a letter that Noto Sans lacks: the content of its file, and the face's index there.
+#[cfg(feature = "desktop")]
+pub fn face_with(letter: char) -> Option<(Vec<u8>, u32)> {
+    let faces = with_system();
+    let found = fallback(letter, &[], &faces)?;
+    faces.with_face_data(found, |data, index| (data.to_vec(), index))
+}
+
 /// Whether Noto Sans lacks a letter. Control characters and variation selectors do not count as letters.
 fn is_foreign(letter: char) -> bool {
     !letter.is_ascii() && !is_unseen(letter) && !has(notosans::REGULAR_TTF, 0, letter)

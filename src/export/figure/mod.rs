@@ -27,6 +27,8 @@ pub use components::of_all as component_colours;
 pub use context::FigureContext;
 pub use counted::{Colours, Diagram};
 pub use difference::{ChangeBands, ChangeColours, difference};
+#[cfg(feature = "desktop")]
+pub use fonts::face_with;
 pub use fonts::{runs, without_face};
 pub use lines::{LineDrawing, MOST_OUTLINES, Outline, heights, iso_hours, outlines};
 pub use lines::{SkyContext, card_picture, sky_card, sky_colours, sky_pictures, sky_sheet};

@@ -11,11 +11,13 @@
 //! stands on it; the paper's factor of an unoccluded light (`unoccluded`, a hook for tests) is computed separately, as
 //! hours do not need it.
 //!
-//! Where it fails: a texel has the value of its centre; and with many tiny patches, rays cost less ([`Choice::Auto`]).
+//! Where it fails: a texel has the value of its centre; and rays cost less with many tiny patches, and towards the sun
+//! ([`Choice::Auto`], [`rectangles`]).
 
 mod between;
 #[cfg(feature = "test-hooks")]
 mod factor;
+mod curve;
 mod fill;
 mod fine;
 mod occluders;
@@ -99,7 +101,7 @@ impl SoftTexture {
             drawer: gpu.map(|gpu| AdapterDrawer::new(gpu, &casters, &patches, choice)).transpose()?,
             casters,
             sums: vec![0; patches.texels.len()],
-            order: rectangles::along_a_curve(&patches),
+            order: curve::along_a_curve(&patches),
             patches,
             choice,
             fill,
