@@ -13,7 +13,7 @@ use crate::sunlight::{Headroom, RayHeight, roomiest};
 use rayon::prelude::*;
 
 /// The most days of places that choose together; more would take minutes.
-const MOST_TOGETHER: usize = 300;
+const MOST_TOGETHER: usize = 5000;
 /// About so many rays are compared with the heights: if there are more, one of several seconds each time.
 const MOST_COMPARED: i64 = 4_000_000;
 
