@@ -35,6 +35,7 @@ pub mod plot_cells;
 #[doc(hidden)]
 pub mod probe;
 mod profile;
+mod search_memory;
 mod settle;
 mod site_view;
 #[doc(hidden)]

@@ -4,6 +4,7 @@
 //! searched singly are searched only where the two instants differ, by halving.
 
 use super::gaps::{Gap, Gaps};
+use super::search_memory::{PARTS, STRIP};
 use super::{StudyError, Wants, night};
 use crate::gpu::Gpu;
 use crate::profile::Shaded;
@@ -129,18 +130,6 @@ impl<'a> TileSum<'a> {
 const CELLS_AT_ONCE: usize = 1 << 22;
 /// And no fewer rows, which are shared out among the processors.
 const FEWEST_ROWS: usize = 1 << 8;
-/// Of the cells of a tile that may all change in one gap, this part is searched at once, so that memory is bounded.
-const PARTS: usize = 16;
-/// Cells are counted in strips of this many rows, the squares in which neighbours are searched together.
-const STRIP: usize = 8;
-/// The memory for a cell that changes: its change in a list that may have grown to twice its length, among all changes,
-/// and as seconds.
-const CHANGE_BYTES: u64 = 64;
-
-/// The memory that the search in gaps takes besides bits, bytes: for each cell, and for each column, as at least a strip
-/// is searched at once.
-pub(super) const SEARCH_BYTES: [u64; 2] = [CHANGE_BYTES / PARTS as u64, CHANGE_BYTES * STRIP as u64];
-
 /// The rows that are searched at once.
 fn parts([before, after]: [&Bits; 2]) -> Vec<Range<usize>> {
     let (width, height) = (before.width as usize, before.height as usize);

@@ -1,18 +1,16 @@
 //! A study that is prepared but not yet run.
 
 use super::machine::Machine;
-use super::tile_sum::TileSum;
-use super::{Event, OnEvent, SiteView, Stopwatch, StudyError, Wants, fingerprint, subject_of, tell};
+use super::{SiteView, Stopwatch, Wants, fingerprint, subject_of};
 use crate::message::Message;
-use crate::profile::{Provenance, Shaded, Unfinished};
+use crate::profile::{Provenance, Unfinished};
 use crate::site::Site;
-use crate::sun;
 use crate::view::{Tile, View};
 use std::cell::OnceCell;
 use std::fmt;
 
-/// A prepared study that reports its sums tile by tile ([`Event::Tile`],
-/// [`Event::Summed`]), so that memory need not hold all of them.
+/// A prepared study that reports its sums tile by tile ([`Event::Tile`](super::Event::Tile),
+/// [`Event::Summed`](super::Event::Summed)), so that memory need not hold all of them.
 pub struct TiledStudy<'a> {
     pub(super) site: &'a Site,
     pub(super) wants: Wants,
@@ -38,38 +36,6 @@ impl TiledStudy<'_> {
     /// The tiles in order.
     pub fn tiles(&self) -> &[Tile] {
         &self.tiles
-    }
-
-    /// Computes a part of the study, for a program that distributes the work: the shaded time of one tile at some of
-    /// the instants, which may come from another process. Time between two instants belongs to the later one. Sums of
-    /// instants that make up the track add up to the tile's own sum to the bit, and [`paste`](super::paste) joins
-    /// tiles. If the device fails, so does this call. The listener receives [`Event::Drawn`] after each of the instants,
-    /// and can end the work also between them ([`Event::Between`]).
-    ///
-    /// # Errors
-    /// [`StudyError::OtherTile`] for a tile of another study; [`StudyError::Shadow`] if drawing fails;
-    /// [`StudyError::Interrupted`] if the listener ends the work.
-    pub fn sum(&self, tile: Tile, instants: &[sun::Instant], on_event: &mut OnEvent<'_>) -> Result<Shaded, StudyError> {
-        if !self.tiles.contains(&tile) {
-            return Err(StudyError::OtherTile);
-        }
-        let mut technique = self.look().technique_of(tile)?;
-        let mut sum = TileSum::new(self.site, self.drawn().resolution_secs, self.machine.gpu(), &tile);
-        let track = &self.site.track.instants;
-        for (index, instant) in instants.iter().enumerate() {
-            let at = track.binary_search_by_key(&instant.time, |own| own.time);
-            match at.ok().filter(|at| track[*at].weight_secs == instant.weight_secs) {
-                _ if instant.night => {}
-                Some(at) => {
-                    let go_on = &mut || tell(on_event, Event::Between);
-                    sum.add(at, technique.as_mut(), &Wants::default(), go_on)?;
-                }
-                None => sum.add_mask(&technique.draw(instant.to_sun)?, instant.weight_secs)?,
-            }
-            let (count, time) = (instants.len(), instant.time);
-            tell(on_event, Event::Drawn { index, count, time, mask: None, bits: None })?;
-        }
-        Ok(sum.finish()?)
     }
 
     pub(super) fn look(&self) -> SiteView<'_> {
