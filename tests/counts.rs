@@ -4,7 +4,7 @@
 use crate::shared::drawing::gpu;
 use chrono::NaiveDate;
 use glam::{DVec3, dvec3};
-use gnomon::choice::{Engine, MAP_SIZE, Receivers};
+use gnomon::choice::{MAP_SIZE, Receivers};
 use gnomon::formats;
 use gnomon::mesh::Mesh;
 use gnomon::mesh::patches::{MOST_TEXELS, Patches};
@@ -16,12 +16,10 @@ use gnomon::shadow::stencil::Stencil;
 use gnomon::shadow::{JUDGED_ABOVE_M, Scene, Technique};
 use gnomon::silhouette::ProcessorFinder;
 use gnomon::site::{Overrides, Site};
-use gnomon::study;
-use gnomon::sun::{DayWindow, SunTrack};
+use gnomon::sun::DayWindow;
 use gnomon::sunlight::{JudgedPoint, ProbeSearch, SearchedDays};
 use gnomon::view::View;
 use std::cell::Cell;
-use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -82,19 +80,8 @@ fn counts(name: &str) -> Counts {
         reached += hybrid.counted(sun).unwrap().unwrap().reached.iter().map(|&it| u64::from(it)).sum::<u64>();
     }
     counts.extend([("fragments of the stencil", all), ("fragments that the hybrid's mask lets through", reached)]);
-    counts.push(("rays by which surfaces' changes are halved", halving_rays(&site)));
     counts.push(("faces tested by the search of a year", faces_of_a_year(&site)));
     counts
-}
-
-/// The rays that find when texels of 4 m change between the study's instants, without those at the instants.
-fn halving_rays(site: &Site) -> u64 {
-    let rays = |resolution_secs: u32| {
-        let track = SunTrack { resolution_secs, ..site.track.clone() };
-        let site = Site { engine: Engine::Cpu, track, ..site.clone() };
-        study::patches(&site, 4.0, &mut |_| ControlFlow::Continue(())).unwrap().judged.rays
-    };
-    rays(60) - rays(0)
 }
 
 /// The tests of faces for the intervals of four points beside the models on all days of a year.

@@ -2,7 +2,7 @@
 //!
 //! Components share no vertices, so neither edges nor the order of edges crosses a component.
 
-use super::blocks::{self, Block};
+use super::blocks::{self, VertexBlock};
 use super::triangles::MeshBlock;
 use super::{Incidence, Mesh};
 use rayon::prelude::*;
@@ -47,7 +47,7 @@ struct BlockEdges {
 
 impl BlockEdges {
     /// Sorts sides by their lower vertex in one pass, then the few sides of each vertex.
-    fn of(faces: &[[u32; 3]], block: &Block) -> BlockEdges {
+    fn of(faces: &[[u32; 3]], block: &VertexBlock) -> BlockEdges {
         let faces = block.triangles.clone().zip(&faces[block.triangles.clone()]);
         let lower = |[from, to]: [u32; 2]| from.min(to) as usize - block.vertices.start;
         let mut first = vec![0_u32; block.vertices.len() + 1];

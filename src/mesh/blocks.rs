@@ -12,7 +12,7 @@ const AT_ONCE: usize = 1 << 13;
 
 /// Consecutive triangles, and the vertices that only they use.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct TriangleRun {
+pub(crate) struct VertexBlock {
     /// The triangles.
     pub(crate) triangles: Range<usize>,
     /// The vertices: those of all blocks follow each other, and begin at 0.
@@ -20,8 +20,8 @@ pub(crate) struct TriangleRun {
 }
 
 /// The blocks of some triangles with vertices below a number; at least one.
-pub(crate) fn blocks(triangles: &[[u32; 3]], vertices: usize) -> Vec<TriangleRun> {
-    let mut blocks = vec![TriangleRun { triangles: 0..triangles.len(), vertices: 0..vertices }];
+pub(crate) fn blocks(triangles: &[[u32; 3]], vertices: usize) -> Vec<VertexBlock> {
+    let mut blocks = vec![VertexBlock { triangles: 0..triangles.len(), vertices: 0..vertices }];
     if triangles.len() <= AT_ONCE {
         return blocks;
     }
@@ -38,7 +38,7 @@ pub(crate) fn blocks(triangles: &[[u32; 3]], vertices: usize) -> Vec<TriangleRun
         if let Some(last) = blocks.last_mut() {
             (last.triangles.end, last.vertices.end) = (at, vertex);
         }
-        blocks.push(TriangleRun { triangles: at..triangles.len(), vertices: vertex..vertices });
+        blocks.push(VertexBlock { triangles: at..triangles.len(), vertices: vertex..vertices });
     }
     blocks
 }

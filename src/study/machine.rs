@@ -1,6 +1,6 @@
 //! A technique with everything that it needs to be made for a view.
 
-use super::search_parts::SEARCH_BYTES;
+use super::search_memory::SEARCH_BYTES;
 use super::{StudyError, Wants, subject};
 use crate::choice::{Engine, Finder, Method, MethodRow, Misfit, Receivers, Settings, Subject};
 use crate::gpu::Gpu;

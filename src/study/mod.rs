@@ -28,7 +28,6 @@ pub mod live;
 mod machine;
 mod openness;
 mod outcome;
-mod part_sum;
 mod patch_sum;
 mod patches;
 #[doc(hidden)]
@@ -36,7 +35,7 @@ pub mod plot_cells;
 #[doc(hidden)]
 pub mod probe;
 mod profile;
-mod search_parts;
+mod search_memory;
 mod settle;
 mod site_view;
 #[doc(hidden)]

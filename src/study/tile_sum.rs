@@ -4,7 +4,7 @@
 //! searched singly are searched only where the two instants differ, by halving.
 
 use super::gaps::{Gap, Gaps};
-use super::search_parts::parts;
+use super::search_memory::{PARTS, STRIP};
 use super::{StudyError, Wants, night};
 use crate::gpu::Gpu;
 use crate::profile::Shaded;
@@ -12,6 +12,7 @@ use crate::profile::accumulate::Sum;
 use crate::shadow::{DifferingCells, DrawnMask, LightChange, ShadowError, SingleCells, Technique};
 use crate::site::Site;
 use crate::view::{Bits, Mask, Tile, View};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Asks a listener between the moments of a gap whether the work goes on; an error ends it.
@@ -123,6 +124,32 @@ impl<'a> TileSum<'a> {
     pub(super) fn finish(self) -> Result<Shaded, ShadowError> {
         self.sum.finish()
     }
+}
+
+/// So many cells are looked at before a listener is asked whether to go on: about what an instant takes.
+const CELLS_AT_ONCE: usize = 1 << 22;
+/// And no fewer rows, which are shared out among the processors.
+const FEWEST_ROWS: usize = 1 << 8;
+/// The rows that are searched at once.
+fn parts([before, after]: [&Bits; 2]) -> Vec<Range<usize>> {
+    let (width, height) = (before.width as usize, before.height as usize);
+    let (most_rows, most) = ((CELLS_AT_ONCE / width).max(FEWEST_ROWS), width * height / PARTS);
+    let in_strip = STRIP * before.in_row();
+    let strips = before.words.chunks(in_strip).zip(after.words.chunks(in_strip));
+    let differing = |(before, after): (&[u64], &[u64])| {
+        before.iter().zip(after).map(|(before, after)| (before ^ after).count_ones() as usize).sum::<usize>()
+    };
+    let (mut parts, mut part, mut count) = (Vec::new(), 0..0, 0);
+    for differing in strips.map(differing) {
+        if !part.is_empty() && (count + differing > most || part.len() + STRIP > most_rows) {
+            parts.push(part.clone());
+            (part, count) = (part.end..part.end, 0);
+        }
+        count += differing;
+        part.end = (part.end + STRIP).min(height);
+    }
+    parts.push(part);
+    parts
 }
 
 /// The search for the times at which cells change in a gap.

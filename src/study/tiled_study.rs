@@ -9,8 +9,8 @@ use crate::view::{Tile, View};
 use std::cell::OnceCell;
 use std::fmt;
 
-/// A prepared study that reports its sums tile by tile ([`super::Event::Tile`],
-/// [`super::Event::Summed`]), so that memory need not hold all of them.
+/// A prepared study that reports its sums tile by tile ([`Event::Tile`](super::Event::Tile),
+/// [`Event::Summed`](super::Event::Summed)), so that memory need not hold all of them.
 pub struct TiledStudy<'a> {
     pub(super) site: &'a Site,
     pub(super) wants: Wants,

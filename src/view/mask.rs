@@ -94,7 +94,7 @@ const SHARES: [[u8; 8]; 256] = {
     let mut shares = [[255; 8]; 256];
     let mut at = 0;
     while at < 256 * 8 {
-        if at / 8 >> (at % 8) & 1 == 1 {
+        if (at / 8) >> (at % 8) & 1 == 1 {
             shares[at / 8][at % 8] = 0;
         }
         at += 1;

@@ -15,9 +15,9 @@
 //! ([`Choice::Auto`], [`rectangles`]).
 
 mod between;
+mod curve;
 #[cfg(feature = "test-hooks")]
 mod factor;
-mod curve;
 mod fill;
 mod fine;
 mod occluders;

@@ -8,8 +8,6 @@ use crate::mesh::patches::{Patch, Texel};
 use crate::shadow::JUDGED_ABOVE_M;
 use crate::shadow::rays::{CellSet, RasterFate, RayRaster, Shear};
 use crate::shadow::registered::Raster;
-use glam::DVec3;
-use rayon::prelude::*;
 
 impl PatchJudge<'_> {
     /// Adds the sun's weight to the texels of a patch that see it.
