@@ -21,6 +21,7 @@ mod fill;
 mod fine;
 mod occluders;
 mod on_gpu;
+mod order;
 mod query;
 mod rectangles;
 
@@ -100,7 +101,7 @@ impl SoftTexture {
             drawer: gpu.map(|gpu| AdapterDrawer::new(gpu, &casters, &patches, choice)).transpose()?,
             casters,
             sums: vec![0; patches.texels.len()],
-            order: rectangles::along_a_curve(&patches),
+            order: order::along_a_curve(&patches),
             patches,
             choice,
             fill,
