@@ -170,7 +170,7 @@ impl Default for &dyn Words {
 /// A piece of a message.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
-pub enum Piece {
+pub enum MessagePart {
     /// Text as it is.
     Text(Cow<'static, str>),
     /// A field.
@@ -202,36 +202,36 @@ pub enum Piece {
         field: Option<Field>,
     },
     /// Pieces that only faces with a certain field show.
-    Where(Field, Vec<Piece>),
+    Where(Field, Vec<MessagePart>),
 }
 
-impl From<&'static str> for Piece {
-    fn from(text: &'static str) -> Piece {
-        Piece::Text(text.into())
+impl From<&'static str> for MessagePart {
+    fn from(text: &'static str) -> MessagePart {
+        MessagePart::Text(text.into())
     }
 }
 
-impl From<String> for Piece {
-    fn from(text: String) -> Piece {
-        Piece::Text(text.into())
+impl From<String> for MessagePart {
+    fn from(text: String) -> MessagePart {
+        MessagePart::Text(text.into())
     }
 }
 
-impl From<Field> for Piece {
-    fn from(field: Field) -> Piece {
-        Piece::Field(field)
+impl From<Field> for MessagePart {
+    fn from(field: Field) -> MessagePart {
+        MessagePart::Field(field)
     }
 }
 
-impl From<(Field, &'static str)> for Piece {
-    fn from((field, value): (Field, &'static str)) -> Piece {
-        Piece::Set(field, value.into())
+impl From<(Field, &'static str)> for MessagePart {
+    fn from((field, value): (Field, &'static str)) -> MessagePart {
+        MessagePart::Set(field, value.into())
     }
 }
 
-impl From<(Field, String)> for Piece {
-    fn from((field, value): (Field, String)) -> Piece {
-        Piece::Set(field, value.into())
+impl From<(Field, String)> for MessagePart {
+    fn from((field, value): (Field, String)) -> MessagePart {
+        MessagePart::Set(field, value.into())
     }
 }
 
@@ -239,14 +239,14 @@ impl From<(Field, String)> for Piece {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Message {
     /// What is wrong, or what the user should know.
-    pub what: Vec<Piece>,
+    pub what: Vec<MessagePart>,
     /// What can be done; empty if nothing can, or if the message already says it.
-    pub hint: Vec<Piece>,
+    pub hint: Vec<MessagePart>,
 }
 
 /// Makes pieces from texts and fields.
 macro_rules! pieces {
-    ($($piece:expr),*) => { vec![$($crate::message::Piece::from($piece)),*] };
+    ($($piece:expr),*) => { vec![$($crate::message::MessagePart::from($piece)),*] };
 }
 
 /// Makes a [`Message`]: the pieces of what is wrong, and after a semicolon those of the hint.
@@ -262,22 +262,28 @@ macro_rules! message {
 pub(crate) use {message, pieces};
 
 /// A field in parentheses, for faces that have it, as an addition to the text before it.
-pub(crate) fn aside(field: Field) -> Piece {
-    Piece::Where(field, pieces![" (", field, ")"])
+pub(crate) fn aside(field: Field) -> MessagePart {
+    MessagePart::Where(field, pieces![" (", field, ")"])
 }
 
 /// A key that may be set, in the wording for a site file.
-pub(crate) fn setting(table: &'static str, key: &'static str, written: &'static str) -> Piece {
-    Piece::Setting { table: table.into(), key: key.into(), value: None, written: written.into(), field: None }
+pub(crate) fn setting(table: &'static str, key: &'static str, written: &'static str) -> MessagePart {
+    MessagePart::Setting { table: table.into(), key: key.into(), value: None, written: written.into(), field: None }
 }
 
 /// The same with a value to set.
-pub(crate) fn set_to(table: &'static str, key: &'static str, value: String, written: String) -> Piece {
-    Piece::Setting { table: table.into(), key: key.into(), value: Some(value), written: written.into(), field: None }
+pub(crate) fn set_to(table: &'static str, key: &'static str, value: String, written: String) -> MessagePart {
+    MessagePart::Setting {
+        table: table.into(),
+        key: key.into(),
+        value: Some(value),
+        written: written.into(),
+        field: None,
+    }
 }
 
 /// The point of the place: latitude and longitude under `[place]`, as `written` has them in a sentence.
-pub(crate) fn place_setting(written: &'static str) -> Piece {
+pub(crate) fn place_setting(written: &'static str) -> MessagePart {
     setting("[place]", "", written)
 }
 
@@ -300,22 +306,22 @@ impl From<String> for Message {
 
 impl Message {
     /// The same message about a field or a key: `step: …`.
-    pub(crate) fn of(mut self, at: Piece) -> Message {
+    pub(crate) fn of(mut self, at: MessagePart) -> Message {
         self.what.splice(..0, [at, ": ".into()]);
         self
     }
 
     /// The same message with a subject: `tower.glb …`.
     pub(crate) fn about(mut self, subject: &str) -> Message {
-        self.what.splice(..0, [Piece::from(format!("{subject} "))]);
+        self.what.splice(..0, [MessagePart::from(format!("{subject} "))]);
         self
     }
 
     /// The same message about a site file, whose fields are keys.
     pub(crate) fn of_keys(mut self) -> Message {
-        let keyed = |piece: &mut Piece| {
-            if let Piece::Field(field) = *piece {
-                *piece = Piece::Key(field);
+        let keyed = |piece: &mut MessagePart| {
+            if let MessagePart::Field(field) = *piece {
+                *piece = MessagePart::Key(field);
             }
         };
         self.what.iter_mut().chain(&mut self.hint).for_each(keyed);
@@ -327,7 +333,7 @@ impl Message {
     pub(crate) fn of_bare_model(mut self) -> Message {
         let mut replaced = Vec::new();
         for piece in self.what.iter_mut().chain(&mut self.hint) {
-            let Piece::Setting { table, key, value, written, field } = piece else { continue };
+            let MessagePart::Setting { table, key, value, written, field } = piece else { continue };
             if let Some((of_key, its)) = field_of(table, key) {
                 *field = Some(of_key);
                 *value = value.take().or_else(|| its.map(str::to_owned));
@@ -338,7 +344,7 @@ impl Message {
             }
         }
         // what would only say the same field again
-        let is_new = |piece: &Piece| !matches!(piece, Piece::Where(field, _) if replaced.contains(field));
+        let is_new = |piece: &MessagePart| !matches!(piece, MessagePart::Where(field, _) if replaced.contains(field));
         self.what.retain(is_new);
         self.hint.retain(is_new);
         self
@@ -357,24 +363,26 @@ impl Message {
     }
 }
 
-fn write(text: &mut String, pieces: &[Piece], words: &dyn Words) {
+fn write(text: &mut String, pieces: &[MessagePart], words: &dyn Words) {
     let name = |field: Field| words.name(field).unwrap_or_else(|| field.name());
     for piece in pieces {
         match piece {
-            Piece::Text(piece) => text.push_str(piece),
-            Piece::Field(field) => text.push_str(name(*field)),
-            Piece::Set(field, value) => text.extend([name(*field), " ", value]),
-            Piece::Key(field) => text.push_str(words.key(*field)),
-            Piece::Setting { table, key, value, written, field } => match field.and_then(|field| words.name(field)) {
-                Some(name) => {
-                    text.push_str(name);
-                    value.iter().for_each(|value| text.extend([" ", value]));
+            MessagePart::Text(piece) => text.push_str(piece),
+            MessagePart::Field(field) => text.push_str(name(*field)),
+            MessagePart::Set(field, value) => text.extend([name(*field), " ", value]),
+            MessagePart::Key(field) => text.push_str(words.key(*field)),
+            MessagePart::Setting { table, key, value, written, field } => {
+                match field.and_then(|field| words.name(field)) {
+                    Some(name) => {
+                        text.push_str(name);
+                        value.iter().for_each(|value| text.extend([" ", value]));
+                    }
+                    None => text.push_str(&words.setting(table, key, value.as_deref(), written)),
                 }
-                None => text.push_str(&words.setting(table, key, value.as_deref(), written)),
-            },
-            Piece::At { file, table, key } => text.push_str(&words.at(file, table, key)),
-            Piece::Where(field, pieces) if words.name(*field).is_some() => write(text, pieces, words),
-            Piece::Where(..) => {}
+            }
+            MessagePart::At { file, table, key } => text.push_str(&words.at(file, table, key)),
+            MessagePart::Where(field, pieces) if words.name(*field).is_some() => write(text, pieces, words),
+            MessagePart::Where(..) => {}
         }
     }
 }

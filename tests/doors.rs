@@ -6,7 +6,7 @@ use std::path::Path;
 /// The modules, and what each shows at its root.
 const SHOWN: &[(&str, &[&str])] = &[
     // and Field, which a macro makes
-    ("message", &["Message", "Piece", "PlainWords", "Worded", "Words"]),
+    ("message", &["Message", "MessagePart", "PlainWords", "Worded", "Words"]),
     ("choice", &["Engine", "Filter", "Finder", "Method", "Misfit", "Receivers", "Setting", "Settings", "Subject"]),
     ("mesh", &["Component", "CornerPrecision", "Incidence", "Mesh", "MeshError", "Part"]),
     (

@@ -6,7 +6,7 @@ use gnomon::choice::Receivers;
 use gnomon::cli::Options;
 use gnomon::fault;
 use gnomon::gpu::GpuError;
-use gnomon::message::{Field, Message, Piece, PlainWords, Worded, Words};
+use gnomon::message::{Field, Message, MessagePart, PlainWords, Worded, Words};
 use gnomon::shadow::ShadowError;
 use gnomon::site::{Ground, GroundFrom, Overrides, Site, load_mesh};
 use gnomon::study::StudyError;
@@ -35,9 +35,9 @@ fn pieces_are_said_in_the_words_of_a_face() {
             Field::Step.into(),
             ", as ".into(),
             (Field::Step, "1h").into(),
-            Piece::Where(Field::Memory, vec![", or more ".into(), Field::Memory.into()]),
+            MessagePart::Where(Field::Memory, vec![", or more ".into(), Field::Memory.into()]),
             ", and not another ".into(),
-            Piece::Key(Field::To),
+            MessagePart::Key(Field::To),
         ],
     };
     let said = |words: &dyn Words| message.in_words(words);
@@ -47,7 +47,7 @@ fn pieces_are_said_in_the_words_of_a_face() {
     assert_eq!(said(&PlainWords), format!("{what} step, as step 1h, and not another to"));
     assert_eq!(message.to_string(), said(&PlainWords));
     // a way out that nobody can take is none
-    let alone = Message { hint: vec![Piece::Where(Field::Memory, vec!["take more".into()])], ..message };
+    let alone = Message { hint: vec![MessagePart::Where(Field::Memory, vec!["take more".into()])], ..message };
     assert_eq!(alone.in_words(&Steps), "it has too many instants");
 }
 

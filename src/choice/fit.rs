@@ -2,7 +2,7 @@
 
 use super::table::{Method, MethodRow, Setting, Subject, TABLE};
 use super::{Engine, Finder, Settings, listed};
-use crate::message::{Field, Message, Piece, Worded, pieces, plain_display};
+use crate::message::{Field, Message, MessagePart, Worded, pieces, plain_display};
 
 /// Two choices that do not fit together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,7 +51,7 @@ impl Misfit {
         }
     }
 
-    fn what_and_hint(&self) -> (String, Vec<Piece>) {
+    fn what_and_hint(&self) -> (String, Vec<MessagePart>) {
         match *self {
             Misfit::Technique { method, subject } => {
                 let others = listed(&subject.drawn_by(Engine::Auto), "or");
@@ -96,7 +96,7 @@ impl Misfit {
 
 /// The techniques that use an option, and the hint to choose one of them: without the requested engine if none of them
 /// draws on it.
-fn users_and_hint(setting: Setting, engine: Engine, subject: Subject) -> (String, Vec<Piece>) {
+fn users_and_hint(setting: Setting, engine: Engine, subject: Subject) -> (String, Vec<MessagePart>) {
     let users = |engine| {
         let users = TABLE.iter().filter(|row| row.uses(setting) && row.draws(engine, subject));
         users.map(|row| row.word).collect::<Vec<_>>()
@@ -141,7 +141,7 @@ impl Misfit {
                 instead.extend(pieces![gap, subject.choice()]);
             }
             // a face without such a field has other ways to choose the subject
-            hint.push(Piece::Where(Field::Receivers, instead));
+            hint.push(MessagePart::Where(Field::Receivers, instead));
         }
         Message { what: pieces![what], hint }
     }

@@ -4,7 +4,7 @@
 use super::parts::{note, note_letters};
 use super::sink::NamedFile;
 use super::{DeliverError, Sink, WrittenFiles};
-use crate::export::envelope::{self as encode, EnvelopeMap, EnvelopeSolid, EnvelopeTold, KeptReceiver, KeptSpot};
+use crate::export::envelope::{self as encode, EnvelopeContext, EnvelopeMap, EnvelopeSolid, KeptReceiver, KeptSpot};
 use crate::export::{figure, raster};
 use crate::message::{Field, Message, message};
 use crate::rules::{Grouping, ResolvedRule, RuleDay, RuleReceiver, SunDemand, duration_text};
@@ -105,7 +105,7 @@ pub fn envelope(
     names.push(FILES[5].into());
     let paths: Vec<PathBuf> = names.iter().map(|name| open.path(name).unwrap_or_else(|| name.clone())).collect();
     let (demand, days, most_m3) = (asked.demand, kept.days.as_slice(), outcome.most_m3);
-    let said = EnvelopeTold { map: &map, demand, days, kept: &told, most_m3, files: &paths };
+    let said = EnvelopeContext { map: &map, demand, days, kept: &told, most_m3, files: &paths };
     let report = encode::json(&said, (&notes, site.words))?;
     files.push((FILES[5].into(), report.clone().into_bytes()));
     Ok(EnvelopeAnswer { table: encode::table(&said), report, written: open.write(files)? })

@@ -2,7 +2,7 @@
 
 use super::lines::{LinesError, by_clock};
 use crate::export::ExportError;
-use crate::message::{Field, Message, Piece, Worded, message, pieces, plain_display};
+use crate::message::{Field, Message, MessagePart, Worded, message, pieces, plain_display};
 use crate::study::StudyError;
 use crate::sun::Zone;
 use crate::volume::solid::SolidError;
@@ -63,7 +63,7 @@ impl Worded for DeliverError {
                     "no sun at {}: it is {below_deg:.1}° below the horizon, and nothing casts a shadow",
                     time.format("%Y-%m-%d %H:%M")
                 );
-                "choose a time of day", Piece::Where(Field::At, pieces![" for ", Field::At])
+                "choose a time of day", MessagePart::Where(Field::At, pieces![" for ", Field::At])
             ],
             DeliverError::Solid(error) => error.to_string().into(),
         }

@@ -3,7 +3,7 @@
 use super::sink::NamedFile;
 use crate::export::ExportError;
 use crate::export::figure::{self, FigureContext, MOST_OUTLINES, Outline};
-use crate::message::{Field, Message, Piece, Worded, message, pieces, plain_display};
+use crate::message::{Field, Message, MessagePart, Worded, message, pieces, plain_display};
 use crate::profile::Profile;
 use crate::sun::{Instant, SunTrack};
 use crate::view::SurfaceRows;
@@ -60,8 +60,8 @@ impl Worded for LinesError {
 }
 
 /// The fields that shorten a window, for faces that have them.
-pub(super) fn by_clock() -> Piece {
-    Piece::Where(Field::From, pieces![" with ", Field::From, " and ", Field::To])
+pub(super) fn by_clock() -> MessagePart {
+    MessagePart::Where(Field::From, pieces![" with ", Field::From, " and ", Field::To])
 }
 
 impl Lines {

@@ -1,6 +1,6 @@
 //! Why a file could not be written.
 
-use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display};
+use crate::message::{Field, Message, MessagePart, Worded, aside, message, pieces, plain_display};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -194,16 +194,16 @@ fn no_room(path: &Path, size: u64, room: u64) -> Message {
         "choose larger cells",
         aside(Field::Cell),
         ", ",
-        Piece::Where(Field::Size, pieces!["fewer", aside(Field::Size), ", "]),
+        MessagePart::Where(Field::Size, pieces!["fewer", aside(Field::Size), ", "]),
         "a longer ",
         Field::Step,
         ", or another disk",
-        Piece::Where(Field::Out, pieces![" with ", Field::Out])
+        MessagePart::Where(Field::Out, pieces![" with ", Field::Out])
     ]
 }
 
 /// The hint for an error of the file system.
-fn way_out(kind: io::ErrorKind) -> Vec<Piece> {
+fn way_out(kind: io::ErrorKind) -> Vec<MessagePart> {
     let way_out = match kind {
         io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => "choose a folder you may write to",
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge => {
@@ -218,5 +218,5 @@ fn way_out(kind: io::ErrorKind) -> Vec<Piece> {
         io::ErrorKind::InvalidFilename => "choose a shorter or simpler name",
         _ => "choose another place",
     };
-    pieces![way_out, Piece::Where(Field::Out, pieces![" with ", Field::Out])]
+    pieces![way_out, MessagePart::Where(Field::Out, pieces![" with ", Field::Out])]
 }

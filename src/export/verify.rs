@@ -2,7 +2,7 @@
 
 use super::{ExportError, report};
 use crate::choice::{Engine, Finder, Method, Promise, Truth};
-use crate::message::{Field, Message, Piece, Words, message, pieces};
+use crate::message::{Field, Message, MessagePart, Words, message, pieces};
 use crate::site::Site;
 use crate::sun::{Place, SunTrack};
 use crate::verification::{HoursDifference, Row, Verification};
@@ -310,7 +310,7 @@ fn bound(verification: &Verification, words: &dyn Words) -> String {
     if verification.clean {
         return bound;
     }
-    let more = Piece::Where(Field::Check, pieces![": ", Field::Check, " says more"]);
+    let more = MessagePart::Where(Field::Check, pieces![": ", Field::Check, " says more"]);
     message![bound, "\n         (as not every part that casts is clean", more, ")"].in_words(words)
 }
 

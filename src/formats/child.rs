@@ -7,7 +7,7 @@
 
 use super::encoded::{self, EncodingError};
 use super::{Model, ModelFault, ReadLimits, ReadOptions};
-use crate::message::{Field, Message, Piece, message, pieces};
+use crate::message::{Field, Message, MessagePart, message, pieces};
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
@@ -202,7 +202,7 @@ fn too_long(time: Duration) -> Message {
     let time = if secs >= 60.0 { format!("{:.0} min", secs / 60.0) } else { format!("{secs:.0} s") };
     message![
         format!("takes longer to read than {time}, and reading was stopped");
-        SMALLER, Piece::Where(Field::ReadTime, pieces![", or allow more with ", (Field::ReadTime, "1h")])
+        SMALLER, MessagePart::Where(Field::ReadTime, pieces![", or allow more with ", (Field::ReadTime, "1h")])
     ]
 }
 
@@ -215,7 +215,7 @@ fn too_large(bytes: u64) -> Message {
     };
     message![
         format!("takes more memory to read than {most}, and reading was stopped");
-        SMALLER, Piece::Where(Field::ReadMemory, pieces![", or allow more with ", (Field::ReadMemory, "64GiB")])
+        SMALLER, MessagePart::Where(Field::ReadMemory, pieces![", or allow more with ", (Field::ReadMemory, "64GiB")])
     ]
 }
 

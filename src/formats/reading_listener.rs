@@ -5,11 +5,11 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// Is called with each file when its reading begins, and with `None` when it has ended.
-type HearReading = dyn Fn(Option<&Path>) + Send + Sync;
+type ReadingCall = dyn Fn(Option<&Path>) + Send + Sync;
 
 /// Hears of each file when its reading begins, and `None` when it has ended. The default hears nothing.
 #[derive(Clone, Default)]
-pub struct ReadingListener(Option<Arc<HearReading>>);
+pub struct ReadingListener(Option<Arc<ReadingCall>>);
 
 impl ReadingListener {
     /// Calls with what is heard.
@@ -18,9 +18,9 @@ impl ReadingListener {
     }
 
     /// The reading of a file begins; it ends when what is returned is dropped.
-    pub(super) fn begin(&self, path: &Path) -> HeardReading<'_> {
+    pub(super) fn begin(&self, path: &Path) -> ReadingNotice<'_> {
         self.hear(Some(path));
-        HeardReading(self)
+        ReadingNotice(self)
     }
 
     fn hear(&self, path: Option<&Path>) {
@@ -37,9 +37,9 @@ impl fmt::Debug for ReadingListener {
 }
 
 /// The reading of a file, as long as it lasts.
-pub(super) struct HeardReading<'a>(&'a ReadingListener);
+pub(super) struct ReadingNotice<'a>(&'a ReadingListener);
 
-impl Drop for HeardReading<'_> {
+impl Drop for ReadingNotice<'_> {
     fn drop(&mut self) {
         self.0.hear(None);
     }

@@ -2,7 +2,7 @@
 
 #[cfg(feature = "test-hooks")]
 use super::timers::Timers;
-use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display};
+use crate::message::{Field, Message, MessagePart, Worded, aside, message, pieces, plain_display};
 use std::sync::{Arc, Mutex};
 use wgpu::{
     Adapter, Backends, DeviceDescriptor, Features, Instance, InstanceDescriptor, PollType, PowerPreference,
@@ -63,20 +63,20 @@ impl Worded for GpuError {
             GpuError::NoAdapter => message![
                 "no graphics adapter was found";
                 "install a driver (on Linux mesa-vulkan-drivers draws in software)",
-                Piece::Where(Field::Engine, pieces![
+                MessagePart::Where(Field::Engine, pieces![
                     " or draw on the processor with ", on_processor, ", without ", Field::Silhouette
                 ])
             ],
             GpuError::Unusable { adapter, reason } => message![
                 format!("the graphics adapter '{adapter}' cannot be used: {reason}");
                 "update its driver",
-                Piece::Where(Field::Engine, pieces![" or use ", on_processor])
+                MessagePart::Where(Field::Engine, pieces![" or use ", on_processor])
             ],
             GpuError::Failed { adapter, reason } | GpuError::Lost { adapter, reason } => message![
                 format!("the graphics adapter '{adapter}' failed: {reason}");
                 "try larger cells",
                 aside(Field::Cell),
-                Piece::Where(Field::Engine, pieces![" or ", on_processor])
+                MessagePart::Where(Field::Engine, pieces![" or ", on_processor])
             ],
         }
     }

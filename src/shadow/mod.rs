@@ -38,7 +38,7 @@ pub mod walls;
 
 use crate::gpu::{Gpu, GpuError, readback};
 use crate::mesh::Mesh;
-use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display};
+use crate::message::{Field, Message, MessagePart, Worded, aside, message, pieces, plain_display};
 use crate::view::{Bits, FragmentCounts, Mask, Surface, Tile, View};
 use glam::{DVec3, DVec4};
 use std::ops::Range;
@@ -223,7 +223,7 @@ impl Worded for ShadowError {
                 format!("a raster of {width} × {height} cells is larger than the {largest} that '{adapter}' draws");
                 "choose larger cells",
                 aside(Field::Cell),
-                Piece::Where(Field::Size, pieces![" or fewer", aside(Field::Size)])
+                MessagePart::Where(Field::Size, pieces![" or fewer", aside(Field::Size)])
             ],
             ShadowError::MapTooLarge { size, largest, adapter } => message![
                 format!("a shadow map of {size} texels per side is larger than the {largest} that '{adapter}' draws");

@@ -3,7 +3,7 @@
 use super::typed::TypedError;
 use crate::formats::ModelError;
 use crate::mesh::MeshError;
-use crate::message::{Field, Message, Piece, Worded, message, pieces, plain_display};
+use crate::message::{Field, Message, MessagePart, Worded, message, pieces, plain_display};
 use crate::sun::SunError;
 
 /// Where a value was given.
@@ -23,9 +23,9 @@ pub enum FieldLocation {
 }
 
 impl FieldLocation {
-    fn piece(&self) -> Piece {
+    fn piece(&self) -> MessagePart {
         match self.clone() {
-            FieldLocation::Key { file, table, key } => Piece::At { file, table, key },
+            FieldLocation::Key { file, table, key } => MessagePart::At { file, table, key },
             FieldLocation::Field(field) => field.into(),
         }
     }
@@ -161,7 +161,7 @@ impl Worded for SiteError {
             SiteError::Unreadable { path, why } => message![
                 format!("{path} cannot be read: {why}");
                 "give a site file, a folder with a site.toml, or a model",
-                Piece::Where(Field::Place, pieces![" with ", (Field::Place, "LAT,LON")])
+                MessagePart::Where(Field::Place, pieces![" with ", (Field::Place, "LAT,LON")])
             ],
             SiteError::NoPlaceForModel { said: Some(said), .. } => Message {
                 hint: pieces!["say where it stands with ", (Field::Place, "LAT,LON")],
@@ -191,7 +191,7 @@ impl Worded for SiteError {
             SiteError::NoProbe { file } => message![
                 format!("{file} has no [[probe]]");
                 "add one with point = [12.0, -3.0, 4.5] to the site file",
-                Piece::Where(Field::Point, pieces![", or ask for one point with ", (Field::Point, "12,-3,4.5")])
+                MessagePart::Where(Field::Point, pieces![", or ask for one point with ", (Field::Point, "12,-3,4.5")])
             ],
             SiteError::UnknownName { at, name, nearest } => {
                 let what = format!("no component or group is named \"{name}\"");
@@ -212,14 +212,15 @@ impl Worded for SiteError {
 }
 
 fn no_study(file: &str, missing: &[(Field, &'static str)]) -> Message {
-    let between = |text: &'static str, piece: fn(&(Field, &'static str)) -> Piece| {
+    let between = |text: &'static str, piece: fn(&(Field, &'static str)) -> MessagePart| {
         let pieces = missing.iter().map(|missing| [piece(missing), text.into()]);
         pieces.flatten().take((2 * missing.len()).saturating_sub(1)).collect::<Vec<_>>()
     };
-    let (keys, settings) = (between(", ", |(field, _)| Piece::Key(*field)), between(" ", |missing| (*missing).into()));
+    let (keys, settings) =
+        (between(", ", |(field, _)| MessagePart::Key(*field)), between(" ", |missing| (*missing).into()));
     Message {
         what: [pieces![format!("{file} does not say ")], keys, pieces![" of the study"]].concat(),
-        hint: vec![Piece::Where(
+        hint: vec![MessagePart::Where(
             Field::From,
             [pieces!["add "], settings, pieces![", or [study] to the site file"]].concat(),
         )],

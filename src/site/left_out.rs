@@ -8,7 +8,7 @@ use super::names::names_of;
 use super::written::WrittenSite;
 use crate::formats::LeftOut;
 use crate::mesh::Component;
-use crate::message::{Field, Message, Piece, few, message, pieces, setting};
+use crate::message::{Field, Message, MessagePart, few, message, pieces, setting};
 
 impl Models {
     /// The contents of each model, in the models' order.
@@ -47,7 +47,7 @@ fn note_left_out(name: &str, left_out: &[LeftOut]) -> Option<Message> {
         1 => format!("{name}: {first} and another thing left out"),
         more => format!("{name}: {first} and {more} others left out"),
     };
-    let lists = Piece::Where(Field::Check, pieces!["`", Field::Check, "` lists them"]);
+    let lists = MessagePart::Where(Field::Check, pieces!["`", Field::Check, "` lists them"]);
     Some(message![what; lists])
 }
 

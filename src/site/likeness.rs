@@ -5,7 +5,7 @@
 
 use crate::formats::{Model, Up};
 use crate::mesh::{Component, Mesh};
-use crate::message::{Field, Message, Piece, message, pieces, set_to};
+use crate::message::{Field, Message, MessagePart, message, pieces, set_to};
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
@@ -274,7 +274,7 @@ pub(super) fn notes(model: &str, mends: &[Mend]) -> Vec<Message> {
             format!("{model} looks as if it lies on its side, with its {up} up");
             "if it does, write ",
             set_to("[[model]]", "up", up.word().to_owned(), format!("`{mend}` under [[model]]")),
-            Piece::Where(Field::Up, pieces![", or say ", (Field::Up, up.word())])
+            MessagePart::Where(Field::Up, pieces![", or say ", (Field::Up, up.word())])
         ]);
     }
     notes

@@ -13,7 +13,7 @@ use super::stand::{ONE_MERIDIAN_RAD, StandingModel};
 use super::written::WrittenSite;
 use crate::crs::{Crs, CrsKind, GeodeticPoint, LocalFrame};
 use crate::formats::{Anchor, AnchorPoint, Coordinates, Model, ModelError, Up};
-use crate::message::{Field, Message, Piece, message, pieces, place_setting, set_to, setting};
+use crate::message::{Field, Message, MessagePart, message, pieces, place_setting, set_to, setting};
 use glam::DVec3;
 use std::path::Path;
 
@@ -307,7 +307,7 @@ impl WrittenSite {
             setting("[place]", "latitude", "latitude"), ", ",
             setting("[place]", "longitude", "longitude"), " and ",
             setting("[place]", "elevation", "elevation in [place]"), " change it",
-            Piece::Where(Field::Place, pieces![", or ", (Field::Place, "LAT,LON")])
+            MessagePart::Where(Field::Place, pieces![", or ", (Field::Place, "LAT,LON")])
         ])
     }
 

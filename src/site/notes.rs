@@ -2,7 +2,7 @@
 
 use super::likeness::{self, Mend};
 use crate::mesh::{Component, CornerPrecision, Mesh};
-use crate::message::{Message, Piece, kilometres, message, place_setting, set_to, setting};
+use crate::message::{Message, MessagePart, kilometres, message, place_setting, set_to, setting};
 use crate::view::{Grid, Probe};
 use glam::{DVec2, DVec3};
 use std::ops::Range;
@@ -48,11 +48,11 @@ pub(super) fn of_all(mesh: &Mesh, from: FarFrom) -> Option<Message> {
     })
 }
 
-fn position() -> Piece {
+fn position() -> MessagePart {
     setting("[[model]]", "position", "`position`")
 }
 
-fn crs() -> Piece {
+fn crs() -> MessagePart {
     set_to("[[model]]", "crs", "EPSG:…".to_owned(), "`crs = \"EPSG:…\"` under [[model]]".to_owned())
 }
 
@@ -95,7 +95,7 @@ pub(super) fn on_probes(probes: &[Probe]) -> Option<Message> {
     probes.iter().find_map(far)
 }
 
-fn asked_far(what: &str, key: Piece, at: DVec2) -> Option<Message> {
+fn asked_far(what: &str, key: MessagePart, at: DVec2) -> Option<Message> {
     (at.length() > ASKED_FAR_M).then(|| {
         let far = kilometres(at.length() / 1000.0);
         message![

@@ -8,7 +8,7 @@ use super::ground::metres;
 use super::terrain::FIRST;
 use crate::mesh::Mesh;
 use crate::mesh::scan::{by_rows, spans, wholes};
-use crate::message::{Message, Piece, message, setting};
+use crate::message::{Message, MessagePart, message, setting};
 use glam::{DVec2, DVec3, Vec3Swizzles as _};
 
 /// The most cells along the longer side of a model's plan.
@@ -82,7 +82,7 @@ pub(super) fn note(mesh: &Mesh, terrain: &TerrainFaces, components: &[usize], mo
     })
 }
 
-fn position() -> Piece {
+fn position() -> MessagePart {
     setting("[[model]]", "position", "`position` under [[model]]")
 }
 

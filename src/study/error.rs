@@ -2,7 +2,7 @@
 
 use crate::choice::Misfit;
 use crate::gpu::GpuError;
-use crate::message::{Field, Message, Piece, Worded, aside, message, pieces, plain_display};
+use crate::message::{Field, Message, MessagePart, Worded, aside, message, pieces, plain_display};
 use crate::rules::{RuleError, RuleNeed};
 use crate::shadow::ShadowError;
 use crate::site::{FieldLocation, Site};
@@ -120,7 +120,7 @@ impl From<RuleError> for StudyError {
 }
 
 /// The keys of a site file that say what a rule needs, each once; nothing where none would help.
-fn to_add(needs: &[RuleNeed]) -> Vec<Piece> {
+fn to_add(needs: &[RuleNeed]) -> Vec<MessagePart> {
     let mut keys: Vec<[&'static str; 2]> = Vec::new();
     for key in needs.iter().filter_map(|need| need.said_at) {
         if !keys.contains(&key) {
@@ -129,13 +129,13 @@ fn to_add(needs: &[RuleNeed]) -> Vec<Piece> {
     }
     let mut hint = Vec::new();
     for (number, [table, key]) in keys.iter().copied().enumerate() {
-        hint.push(Piece::from(match number {
+        hint.push(MessagePart::from(match number {
             0 => "add ",
             _ if number + 1 == keys.len() => " and ",
             _ => ", ",
         }));
         let written = if key.is_empty() { table.to_owned() } else { format!("`{key}` under {table}") };
-        hint.push(Piece::Setting {
+        hint.push(MessagePart::Setting {
             table: table.into(),
             key: key.into(),
             value: None,
@@ -164,7 +164,7 @@ impl Worded for StudyError {
                 format!("{width} × {height} cells are more than can be drawn at once");
                 "choose larger cells",
                 aside(Field::Cell),
-                Piece::Where(Field::Size, pieces![" or fewer", aside(Field::Size)])
+                MessagePart::Where(Field::Size, pieces![" or fewer", aside(Field::Size)])
             ],
             StudyError::TooLong { day_secs, most_secs } => message![
                 format!(
@@ -197,7 +197,7 @@ impl Worded for StudyError {
             StudyError::NoDevice(why) => no_device(why),
             StudyError::NoDay => message![
                 "there is no sun at any of the study's instants, so there is nothing to compare or to keep";
-                "choose a window by day", Piece::Where(Field::From, pieces![" with ", Field::From, " and ", Field::To])
+                "choose a window by day", MessagePart::Where(Field::From, pieces![" with ", Field::From, " and ", Field::To])
             ],
             StudyError::Sun(error) => error.message(),
             StudyError::Rule(message) => message.clone(),

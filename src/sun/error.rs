@@ -1,7 +1,7 @@
 //! What can be wrong with a place, a clock reading or a window.
 
 use super::Zone;
-use crate::message::{Field, Message, Piece, Worded, pieces, plain_display};
+use crate::message::{Field, Message, MessagePart, Worded, pieces, plain_display};
 use chrono::{DateTime, NaiveDate, NaiveDateTime};
 
 /// Why a place, a reading or a window is refused.
@@ -189,8 +189,8 @@ pub enum SunError {
 plain_display!(SunError);
 
 /// As in the site file.
-const FROM: Piece = Piece::Key(Field::From);
-const TO: Piece = Piece::Key(Field::To);
+const FROM: MessagePart = MessagePart::Key(Field::From);
+const TO: MessagePart = MessagePart::Key(Field::To);
 
 impl Worded for SunError {
     fn message(&self) -> Message {
@@ -199,7 +199,7 @@ impl Worded for SunError {
 }
 
 impl SunError {
-    fn what(&self) -> Vec<Piece> {
+    fn what(&self) -> Vec<MessagePart> {
         let text = match self {
             SunError::OutOfRange { what, value, low, high, unit } => {
                 format!("{what} {value} is not between {low} and {high} {unit}")
@@ -245,7 +245,7 @@ impl SunError {
     }
 
     /// What to do; empty if the error already says it.
-    fn hint(&self) -> Vec<Piece> {
+    fn hint(&self) -> Vec<MessagePart> {
         match self {
             SunError::OutOfRange { .. } | SunError::Position(_) => pieces![],
             SunError::UnknownZone { hint, .. } => pieces![hint.clone()],

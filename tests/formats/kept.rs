@@ -7,7 +7,7 @@ use gnomon::formats::{
     self, Anchor, AnchorPoint, Coordinates, Format, LeftOut, Model, ModelCache, PartKind, ReadOptions, SeeThrough, Up,
 };
 use gnomon::mesh::{CornerPrecision, Part};
-use gnomon::message::{Field, Message, Piece};
+use gnomon::message::{Field, Message, MessagePart};
 use std::fs;
 use std::path::Path;
 use std::time::{Duration, SystemTime};
@@ -30,8 +30,11 @@ fn full() -> Model {
         scale: 0.9996,
     };
     let hint = vec![
-        Piece::Where(Field::Place, vec![Piece::Set(Field::Place, "1,2".into()), Piece::Key(Field::Up)]),
-        Piece::At { file: "a".to_owned(), table: "[b]".to_owned(), key: "c".to_owned() },
+        MessagePart::Where(
+            Field::Place,
+            vec![MessagePart::Set(Field::Place, "1,2".into()), MessagePart::Key(Field::Up)],
+        ),
+        MessagePart::At { file: "a".to_owned(), table: "[b]".to_owned(), key: "c".to_owned() },
     ];
     Model {
         format: "glTF",
@@ -49,7 +52,7 @@ fn full() -> Model {
         ],
         assumed_map_unit_m: Some(0.1 + 0.2),
         left_out: vec![LeftOut { what: "IfcSpace".to_owned(), count: 7, why: "not built".to_owned() }],
-        notes: vec![Message { what: vec!["is odd".into(), Piece::Field(Field::Ground)], hint }],
+        notes: vec![Message { what: vec!["is odd".into(), MessagePart::Field(Field::Ground)], hint }],
         see_through: vec![SeeThrough { material: "glass".to_owned(), parts: vec![1] }],
     }
 }

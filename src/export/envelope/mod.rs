@@ -5,5 +5,5 @@ mod report;
 mod solid;
 
 pub use map::EnvelopeMap;
-pub use report::{EnvelopeTold, KeptReceiver, KeptSpot, json, table, window_said};
+pub use report::{EnvelopeContext, KeptReceiver, KeptSpot, json, table, window_said};
 pub use solid::EnvelopeSolid;

@@ -39,7 +39,7 @@ pub struct KeptSpot {
 
 /// Everything that is reported on an envelope.
 #[derive(Clone, Copy, Debug)]
-pub struct EnvelopeTold<'a> {
+pub struct EnvelopeContext<'a> {
     /// The heights.
     pub map: &'a EnvelopeMap<'a>,
     /// What must keep its sun.
@@ -118,8 +118,8 @@ struct KeptDayReport {
 ///
 /// # Errors
 /// [`ExportError::Encode`] if the encoder fails.
-pub fn json(told: &EnvelopeTold, (notes, words): (&[Message], &dyn Words)) -> Result<String, ExportError> {
-    let EnvelopeTold { map, demand, .. } = *told;
+pub fn json(told: &EnvelopeContext, (notes, words): (&[Message], &dyn Words)) -> Result<String, ExportError> {
+    let EnvelopeContext { map, demand, .. } = *told;
     let (rule, settled, hours_secs) = match demand {
         SunDemand::Rule(source, rule) => (Some(rule_report(source)), Some(settled_report(rule)), None),
         SunDemand::Hours(secs, _) => (None, None, Some(secs)),
@@ -178,7 +178,7 @@ pub fn json(told: &EnvelopeTold, (notes, words): (&[Message], &dyn Words)) -> Re
 const MOST_LINES: usize = 40;
 
 /// The files, the heights, what is kept and when, and what that rests on. Ends with a line break.
-pub fn table(told: &EnvelopeTold) -> String {
+pub fn table(told: &EnvelopeContext) -> String {
     let map = told.map;
     let mut text: String = told.files.iter().map(|file| format!("{}\n", file.display())).collect();
     // Writing to a String cannot fail.
@@ -225,7 +225,7 @@ pub fn window_said(place: &Place, days: &[RuleDay]) -> String {
 }
 
 /// What must keep its sun, and what that rests on.
-fn demanded(told: &EnvelopeTold) -> String {
+fn demanded(told: &EnvelopeContext) -> String {
     let (source, rule) = match told.demand {
         SunDemand::Rule(source, rule) => (source, rule),
         SunDemand::Hours(secs, _) => {
@@ -243,7 +243,7 @@ fn demanded(told: &EnvelopeTold) -> String {
 }
 
 /// When a thing's sun stays: the spells if it is a single place on a single day, else how much stays.
-fn stays(told: &EnvelopeTold, of: &KeptReceiver) -> String {
+fn stays(told: &EnvelopeContext, of: &KeptReceiver) -> String {
     let lacks = if of.lacks { "; less than is asked: all of it is kept" } else { "" };
     let clock = |secs: i64| time(told.map.place, secs).format("%H:%M:%S").to_string();
     match of.places.as_slice() {

@@ -11,7 +11,7 @@ use super::left_out::{LeftOutTally, counted, listed};
 use super::{Coordinates, MAX_TRIANGLES, Model, ModelFault, Up};
 use crate::crs::{Crs, CrsKind};
 use crate::mesh::Part;
-use crate::message::{Field, Message, Piece, few, message, pieces, setting};
+use crate::message::{Field, Message, MessagePart, few, message, pieces, setting};
 use extrude::FootprintOutline;
 pub(super) use flatgeobuf::FlatGeobuf;
 use footprint::{Footprint, NO_AREA, RingPolygon, names_of};
@@ -259,12 +259,12 @@ fn unread_bottom_note(unread: &NamedFootprints) -> Option<Message> {
 }
 
 /// The field for the heights of all models, for faces that have it; of a model alone, it is what its own height is.
-fn for_all() -> Piece {
-    Piece::Where(Field::DefaultHeight, pieces![Field::DefaultHeight, " for all models, or "])
+fn for_all() -> MessagePart {
+    MessagePart::Where(Field::DefaultHeight, pieces![Field::DefaultHeight, " for all models, or "])
 }
 
 /// The key for the height of one model's footprints.
-fn own_height() -> Piece {
+fn own_height() -> MessagePart {
     setting("[[model]]", "default_height", "`default_height` under [[model]]")
 }
 

@@ -1,6 +1,6 @@
 //! What stands above a plane: points and edges, and for every sun the directions of the faces.
 
-use super::clumps::{Clumps, Judged, RasterBounds};
+use super::clumps::{Clumps, JudgedCells, RasterBounds};
 use super::edges::{CasterEdges, ClumpEdges, Edge, FaceSide};
 use crate::mesh::{Incidence, Mesh, MeshBlock, lowest};
 use glam::{DAffine3, DVec2, DVec3, Vec3Swizzles};
@@ -94,7 +94,7 @@ impl Casters {
         self.turn(&self.reaching, None);
         self.throw = throw;
         let Casters { clumps, reaching, far, .. } = self;
-        let judged = Judged::new(judged, throw);
+        let judged = JudgedCells::new(judged, throw);
         clumps.reach(&judged, reaching);
         far.clear();
         let distance = |clump: &u32| judged.distance(&clumps.list()[*clump as usize].bounds);

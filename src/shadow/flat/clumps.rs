@@ -84,7 +84,7 @@ impl Clumps {
     }
 
     /// Adds the clumps that may reach the judged cells, in order.
-    pub(in crate::shadow) fn reach(&self, judged: &Judged, found: &mut Vec<u32>) {
+    pub(in crate::shadow) fn reach(&self, judged: &JudgedCells, found: &mut Vec<u32>) {
         found.clear();
         if !self.culling {
             found.extend(0..self.list.len() as u32);
@@ -137,7 +137,7 @@ fn place_code(place: DVec2, all: &RasterBounds) -> u32 {
 }
 
 /// The judged cells, and the direction in which shadows fall on them.
-pub(in crate::shadow) struct Judged {
+pub(in crate::shadow) struct JudgedCells {
     at: RasterBounds,
     throw: DVec2,
     /// A unit vector perpendicular to the shadows, and the extent of the judged cells along it.
@@ -145,13 +145,13 @@ pub(in crate::shadow) struct Judged {
     reach: [f64; 2],
 }
 
-impl Judged {
+impl JudgedCells {
     /// The judged cells within a box. `throw` is the shadow's columns and rows per metre of height.
-    pub(in crate::shadow) fn new(at: RasterBounds, throw: DVec2) -> Judged {
+    pub(in crate::shadow) fn new(at: RasterBounds, throw: DVec2) -> JudgedCells {
         // a margin far above rounding
         let at = RasterBounds { low: at.low - DVec3::new(1.0, 1.0, 0.0), high: at.high + DVec3::new(1.0, 1.0, 0.0) };
         let across = throw.perp().try_normalize().unwrap_or(DVec2::X);
-        Judged { at, throw, across, reach: along(across, &at) }
+        JudgedCells { at, throw, across, reach: along(across, &at) }
     }
 
     /// The distance of a box's middle from the judged cells towards the sun; at most 0 beside them.
@@ -163,7 +163,7 @@ impl Judged {
 
     /// Whether anything in a box could shade the judged cells.
     fn is_reached_by(&self, bounds: &RasterBounds) -> bool {
-        let Judged { at, throw, across, reach } = self;
+        let JudgedCells { at, throw, across, reach } = self;
         // the range of heights above what it shades
         let (least, most) = ((bounds.low.z - at.high.z).max(0.0), bounds.high.z - at.low.z);
         if most <= 0.0 {

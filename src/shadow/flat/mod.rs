@@ -17,7 +17,7 @@ mod edges;
 mod scan;
 
 pub(super) use casters::where_cut;
-pub(super) use clumps::{Clumps, Judged, RasterBounds};
+pub(super) use clumps::{Clumps, JudgedCells, RasterBounds};
 
 use crate::mesh::Mesh;
 use crate::view::Bits;

@@ -53,9 +53,9 @@ impl Crossings {
 /// The crossings of an edge with consecutive rows of a band.
 struct EdgeCrossing {
     /// The position in the first row, from the bits' first column.
-    at: Fixed,
+    at: FixedColumn,
     /// Columns per row.
-    slope: Fixed,
+    slope: FixedColumn,
     /// The first row, within the band.
     first: u16,
     count: u16,
@@ -66,28 +66,28 @@ struct EdgeCrossing {
 /// A column in steps of 2⁻³⁰: integer steps from row to row give the same position wherever they begin. After a million
 /// rows the error is below half a thousandth of a column.
 #[derive(Clone, Copy)]
-struct Fixed(i64);
+struct FixedColumn(i64);
 
-impl Fixed {
+impl FixedColumn {
     const ONE_LOG: u32 = 30;
     /// Columns beyond this need not be distinguished: no plan has that many.
     const FARTHEST: f64 = (1_u64 << 32) as f64;
 
-    fn new(columns: f64) -> Fixed {
+    fn new(columns: f64) -> FixedColumn {
         let steps = columns * (1_u64 << Self::ONE_LOG) as f64;
         // rounds to nearest without the library call that some processors need
-        Fixed((steps + 0.5_f64.copysign(steps)) as i64)
+        FixedColumn((steps + 0.5_f64.copysign(steps)) as i64)
     }
 
     /// The same relative to another column.
-    fn from(self, column: u32) -> Fixed {
-        Fixed(self.0 - (i64::from(column) << Self::ONE_LOG))
+    fn from(self, column: u32) -> FixedColumn {
+        FixedColumn(self.0 - (i64::from(column) << Self::ONE_LOG))
     }
 
     /// The position some rows later.
-    fn after(self, rows: u32, slope: Fixed) -> Fixed {
+    fn after(self, rows: u32, slope: FixedColumn) -> FixedColumn {
         // beyond an edge's end the value is unused
-        Fixed(self.0.wrapping_add(slope.0.wrapping_mul(i64::from(rows))))
+        FixedColumn(self.0.wrapping_add(slope.0.wrapping_mul(i64::from(rows))))
     }
 
     /// The first whole column at or after it, at least 0.
@@ -251,15 +251,15 @@ impl FallingEdge {
         }
         let slope = (lower.x - upper.x) / (lower.y - upper.y);
         let column = |row: u32| upper.x + (f64::from(row) - upper.y) * slope;
-        if upper.x.abs().max(lower.x.abs()) > Fixed::FARTHEST {
+        if upper.x.abs().max(lower.x.abs()) > FixedColumn::FARTHEST {
             for row in start..end {
-                let at = Fixed::new(column(row).clamp(-1.0, Fixed::FARTHEST)).from(left);
-                part.tell_rows((row - top..row - top + 1, at, Fixed(0)), change, &mut tell);
+                let at = FixedColumn::new(column(row).clamp(-1.0, FixedColumn::FARTHEST)).from(left);
+                part.tell_rows((row - top..row - top + 1, at, FixedColumn(0)), change, &mut tell);
             }
             return;
         }
-        let slope = Fixed::new(slope);
-        let at = Fixed::new(column(begin)).from(left).after(start - begin, slope);
+        let slope = FixedColumn::new(slope);
+        let at = FixedColumn::new(column(begin)).from(left).after(start - begin, slope);
         part.tell_rows((start - top..end - top, at, slope), change, &mut tell);
     }
 }
@@ -269,13 +269,13 @@ impl RasterPart {
     /// next.
     fn tell_rows(
         &self,
-        (rows, mut at, slope): (Range<u32>, Fixed, Fixed),
+        (rows, mut at, slope): (Range<u32>, FixedColumn, FixedColumn),
         change: i32,
         tell: &mut impl FnMut(CrossedRows),
     ) {
-        let last_column = i64::from(self.width - 1) << Fixed::ONE_LOG;
+        let last_column = i64::from(self.width - 1) << FixedColumn::ONE_LOG;
         let mut within = rows.clone();
-        let ends = [at, at.after(rows.len() as u32 - 1, slope)].map(|Fixed(at)| at);
+        let ends = [at, at.after(rows.len() as u32 - 1, slope)].map(|FixedColumn(at)| at);
         if ends.iter().any(|&at| at <= 0 || at > last_column) {
             // the crossings move from one side to the other; the first rows that are not beyond a border
             let until = |border: i64| {

@@ -13,7 +13,7 @@ pub use on_gpu::ProjectedOnGpu;
 
 use super::flat::FlatShadow;
 use super::plan_surface::tile_surface;
-use super::raised::{Falling, RaisedCells};
+use super::raised::{FallingShadow, RaisedCells};
 use super::ray_cast::{RayCaster, TIE, reach};
 use super::{DifferingCells, DrawnMask, JUDGED_ABOVE_M, LightChange, Scene, ShadowError, SingleCells, Technique};
 use crate::view::{Grid, Surface, Tile, View};
@@ -75,7 +75,7 @@ impl Technique for Projected {
         self.shadow.draw(to_sun);
         let throw = self.shadow.throw(to_sun);
         let (bits, tops, clumps) = self.shadow.drawn();
-        self.raised.draw(to_sun, &Falling { tops, throw }, clumps, bits);
+        self.raised.draw(to_sun, &FallingShadow { tops, throw }, clumps, bits);
         Ok(DrawnMask::Bits(bits))
     }
 

@@ -14,7 +14,7 @@
 mod buckets;
 mod falling_face;
 
-use super::flat::{Clumps, Judged, RasterBounds};
+use super::flat::{Clumps, JudgedCells, RasterBounds};
 use super::plan_surface::highest;
 use super::{JUDGED_ABOVE_M, Scene, seen_normal};
 use crate::mesh::Mesh;
@@ -51,12 +51,12 @@ pub(super) struct RaisedCells {
 }
 
 /// The casters' vertices as columns, rows and heights, and the shadow's columns and rows per metre of height.
-pub(super) struct Falling<'a> {
+pub(super) struct FallingShadow<'a> {
     pub(super) tops: &'a [DVec3],
     pub(super) throw: DVec2,
 }
 
-impl Falling<'_> {
+impl FallingShadow<'_> {
     /// Where a point is projected to, with its height.
     fn of(&self, point: DVec3) -> DVec3 {
         (point.xy() - self.throw * point.z).extend(point.z)
@@ -142,7 +142,7 @@ impl RaisedCells {
     }
 
     /// Sets the bits of the raised cells. `falling` has the casters' vertices, `clumps` their faces.
-    pub(super) fn draw(&self, to_sun: DVec3, falling: &Falling<'_>, clumps: &Clumps, bits: &mut Bits) {
+    pub(super) fn draw(&self, to_sun: DVec3, falling: &FallingShadow<'_>, clumps: &Clumps, bits: &mut Bits) {
         if self.points.is_empty() {
             return;
         }
@@ -179,7 +179,12 @@ impl RaisedCells {
 
     /// For each task and band, the points that may see the sun. The others are in shadow, since their visible side
     /// faces away.
-    fn points_in_bands(&self, buckets: &Buckets, to_sun: DVec3, falling: &Falling<'_>) -> Vec<Vec<Vec<(DVec3, u32)>>> {
+    fn points_in_bands(
+        &self,
+        buckets: &Buckets,
+        to_sun: DVec3,
+        falling: &FallingShadow<'_>,
+    ) -> Vec<Vec<Vec<(DVec3, u32)>>> {
         let away: Vec<bool> = self.normals.iter().map(|normal| normal.dot(to_sun) <= 0.0).collect();
         let of_run = |run: Range<usize>| {
             let mut bands = vec![Vec::new(); BANDS];
@@ -197,9 +202,9 @@ impl RaisedCells {
     }
 
     /// For each task of the clumps that reach the points, and each band, the faces that may shade some.
-    fn faces_in_bands(&self, buckets: &Buckets, falling: &Falling<'_>, clumps: &Clumps) -> Vec<Vec<Vec<u32>>> {
+    fn faces_in_bands(&self, buckets: &Buckets, falling: &FallingShadow<'_>, clumps: &Clumps) -> Vec<Vec<Vec<u32>>> {
         let mut reaching = Vec::new();
-        clumps.reach(&Judged::new(self.bounds, falling.throw), &mut reaching);
+        clumps.reach(&JudgedCells::new(self.bounds, falling.throw), &mut reaching);
         let of_run = |run: &[u32]| {
             let mut bands = vec![Vec::new(); BANDS];
             for face in run.iter().flat_map(|&clump| clumps.list()[clump as usize].faces.clone()) {
@@ -222,7 +227,7 @@ impl RaisedCells {
         mut sorted: SortedPoints,
         buckets: &Buckets,
         faces: impl Iterator<Item = &'a u32>,
-        falling: &Falling<'_>,
+        falling: &FallingShadow<'_>,
     ) {
         let shade = |at: u32| self.shaded[at as usize].store(1, Ordering::Relaxed);
         // dropping points costs as much as testing them against a few faces

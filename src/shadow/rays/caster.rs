@@ -1,6 +1,8 @@
 //! Casts rays at one mesh.
 
 use super::beam::{BlockedBeam, FirstHits, MOST_RAYS};
+#[cfg(feature = "test-hooks")]
+use super::counted::{CountedRay, RayCounts};
 use super::lanes::SimdLevel;
 use super::raster::{BlockedCells, BlockedRaster, RasterFate, RayRaster};
 use super::search::{BlockedRay, FirstHit};
@@ -87,8 +89,8 @@ impl RayCaster {
 
     /// Counts what [`RayCaster::blocked`] tests.
     #[cfg(feature = "test-hooks")]
-    pub fn counted(&self, origin: DVec3, shear: &Shear) -> super::RayCounts {
-        self.level.run(super::counted::CountedRay { tree: &self.tree, shear, origin })
+    pub fn counted(&self, origin: DVec3, shear: &Shear) -> RayCounts {
+        self.level.run(CountedRay { tree: &self.tree, shear, origin })
     }
 
     /// Returns the number of faces along a ray: the count that a shadow volume must have at its origin.

@@ -60,12 +60,12 @@ impl CoveredCells<'_> {
 }
 
 /// The casters, as filling needs them.
-pub(super) struct Casting<'a> {
+pub(super) struct CasterFaces<'a> {
     pub(super) mesh: &'a Mesh,
     pub(super) occluders: &'a Occluders,
 }
 
-impl Casting<'_> {
+impl CasterFaces<'_> {
     /// Fills the shadow of the faces in `scratch.found` on a raster of this size.
     pub(super) fn covered<'a>(
         &self,

@@ -15,13 +15,13 @@
 //! ([`Choice::Auto`], [`rectangles`]).
 
 mod between;
-mod curve;
 #[cfg(feature = "test-hooks")]
 mod factor;
 mod fill;
 mod fine;
 mod occluders;
 mod on_gpu;
+mod order;
 mod query;
 mod rectangles;
 
@@ -38,7 +38,7 @@ use crate::gpu::Gpu;
 use crate::mesh::Mesh;
 use crate::mesh::patches::{Patch, Patches, Texel};
 use arrayvec::ArrayVec;
-use fill::{Casting, Scratch};
+use fill::{CasterFaces, Scratch};
 use glam::{DVec3, DVec4};
 use occluders::Occluders;
 use on_gpu::AdapterDrawer;
@@ -101,7 +101,7 @@ impl SoftTexture {
             drawer: gpu.map(|gpu| AdapterDrawer::new(gpu, &casters, &patches, choice)).transpose()?,
             casters,
             sums: vec![0; patches.texels.len()],
-            order: curve::along_a_curve(&patches),
+            order: order::along_a_curve(&patches),
             patches,
             choice,
             fill,
@@ -276,7 +276,7 @@ impl PatchJudge<'_> {
             sums.iter_mut().for_each(|sum| *sum += sample.weight);
             return;
         }
-        let casting = Casting { mesh: self.casters, occluders };
+        let casting = CasterFaces { mesh: self.casters, occluders };
         let covered = casting.covered(self.fill, &onto, (patch.width, patch.height), scratch);
         for (sum, texel) in sums.iter_mut().zip(self.texels(patch)) {
             if !covered.at(texel.column.into(), texel.row.into()) {

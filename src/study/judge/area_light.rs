@@ -1,6 +1,6 @@
 //! The light of points on areas.
 
-use super::judging::{BothStates, Judging};
+use super::judging::{BothStates, RuleOnSite};
 use super::point_light::PointLight;
 use super::samples::AreaSpot;
 use super::state_search::StateSearch;
@@ -34,7 +34,7 @@ pub(super) fn reach_of(areas: &[JudgedArea], states: &[&JudgedState]) -> Vec<DVe
 
 /// An area, ready to be searched.
 pub(super) struct AreaPlace<'a> {
-    judging: &'a Judging<'a>,
+    judging: &'a RuleOnSite<'a>,
     states: &'a AreaStates,
     surface: &'a AreaSurface,
     /// When a sun that counts would shine with nothing in its way, for each slope.
@@ -47,7 +47,7 @@ fn slope(normal: Option<DVec3>) -> [u64; 3] {
 
 impl<'a> AreaPlace<'a> {
     pub(super) fn new(
-        judging: &'a Judging<'a>,
+        judging: &'a RuleOnSite<'a>,
         states: &'a AreaStates,
         surface: &'a AreaSurface,
         parts: &[PartTriangle],

@@ -2,7 +2,7 @@
 
 use super::super::StudyError;
 use super::area_light::{AreaPlace, AreaStates};
-use super::judging::{Judging, Steps};
+use super::judging::{RuleOnSite, Steps};
 use super::parts::PartsAsked;
 use super::point_light::{CountedLight, PointLight, merit};
 use super::samples::{AreaSpot, AreaSums, Samples};
@@ -59,7 +59,7 @@ pub(super) struct AreaAnswer {
 
 /// An area that is being judged.
 struct AreaWork<'w> {
-    judging: &'w Judging<'w>,
+    judging: &'w RuleOnSite<'w>,
     place: AreaPlace<'w>,
     samples: Samples,
     m2: f64,
@@ -69,7 +69,7 @@ struct AreaWork<'w> {
 
 /// Judges one area.
 pub(super) fn area(
-    judging: &Judging<'_>,
+    judging: &RuleOnSite<'_>,
     states: &AreaStates,
     area: &JudgedArea,
     steps: &mut Steps<'_, '_>,
@@ -92,7 +92,7 @@ pub(super) fn area(
     Ok(answer)
 }
 
-fn question(judging: &Judging<'_>) -> AreaQuestion {
+fn question(judging: &RuleOnSite<'_>) -> AreaQuestion {
     let rule = judging.rule;
     let has = |of: &dyn Fn(&Criterion) -> bool| rule.criteria.iter().any(of);
     if has(&|criterion| criterion.how == CountHow::AreaTime) {
@@ -295,7 +295,7 @@ pub(super) fn close_where_near(ruling: &mut Ruling, lowered: f64) {
 
 /// The parts of an area that keep each criterion on each day, in one or both states.
 fn lights<'d>(
-    judging: &Judging<'d>,
+    judging: &RuleOnSite<'d>,
     (asked, states): (&[(usize, usize)], usize),
     m2: f64,
     sums: &AreaSums,
@@ -313,7 +313,7 @@ fn lights<'d>(
 }
 
 /// The margin by which a point keeps each demand, in seconds, now and before.
-fn margins(judging: &Judging<'_>, light: &CountedLight, asked: &[(usize, usize)]) -> Vec<f64> {
+fn margins(judging: &RuleOnSite<'_>, light: &CountedLight, asked: &[(usize, usize)]) -> Vec<f64> {
     let days = light.days(judging.days.days);
     let mut found = Vec::with_capacity(asked.len() * 2);
     for (day, number) in asked {
@@ -326,7 +326,7 @@ fn margins(judging: &Judging<'_>, light: &CountedLight, asked: &[(usize, usize)]
     found
 }
 
-fn margin(judging: &Judging<'_>, number: usize, light: &DayLight<'_>) -> f64 {
+fn margin(judging: &RuleOnSite<'_>, number: usize, light: &DayLight<'_>) -> f64 {
     // a missing state before is an error that comes earlier
     let count = judging.rule.tally(number, light).unwrap_or_default();
     match judging.rule.criteria[number].demand {

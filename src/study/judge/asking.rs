@@ -2,8 +2,8 @@
 
 use super::super::{OnEvent, StudyError, note_models};
 use super::days::{JudgedDays, hulls};
-use super::groups::{WindowsJudged, groups, of_groups};
-use super::judging::{Judging, Steps};
+use super::groups::{WindowRulings, groups, of_groups};
+use super::judging::{RuleOnSite, Steps};
 use super::needs;
 use super::receivers::{JudgedReceivers, found};
 use super::whole::{day_verdicts, grade, notes, with_takers};
@@ -28,12 +28,12 @@ pub fn judge(
     let days = JudgedDays::new(site, rule.cuts, &calendar, &hulls)?;
     // no state of a site is a body that the law allows
     let before = site.before.as_ref().filter(|_| rule.compare != Some(CompareWith::Reference));
-    let judging = Judging { site, rule, days: &days, before };
+    let judging = RuleOnSite { site, rule, days: &days, before };
     let Some(first) = hulls.first() else { return Err(StudyError::NoDay) };
     let mut steps = Steps::new(on_event, judging.count(), first.from)?;
     let JudgedReceivers { mut receivers, windows, open_spaces } = found(&judging, &mut steps)?;
     let rulings: Vec<Ruling> = receivers.iter().map(|(receiver, _)| receiver.ruling.clone()).collect();
-    let groups = groups(&WindowsJudged {
+    let groups = groups(&WindowRulings {
         rule,
         days: &calendar,
         windows: if windows.is_empty() { &[] } else { &site.windows },

@@ -2,7 +2,7 @@
 
 use super::super::StudyError;
 use super::areas::close_where_near;
-use super::judging::{BothStates, Judging, Steps};
+use super::judging::{BothStates, RuleOnSite, Steps};
 use super::point_light::{CountedLight, PointLight, is_worse, merit};
 use super::state_search::StateSearch;
 use crate::judgement::{DeemedBorder, JudgedThing, PlotSpot, ReceiverRuling};
@@ -32,7 +32,7 @@ const TOGETHER: usize = 256;
 
 /// The bands around a plot, ready to be searched.
 pub(super) struct BandWork<'w> {
-    judging: &'w Judging<'w>,
+    judging: &'w RuleOnSite<'w>,
     border: DeemedBorder,
     /// The height of the plane where no neighbour raises it.
     plane_z: f64,
@@ -52,7 +52,7 @@ struct JudgedPlace {
 
 impl<'w> BandWork<'w> {
     /// Returns `None` if the rule has no bands, or the site lacks something that it needs.
-    pub(super) fn new(judging: &'w Judging<'w>, plot: &JudgedPlot) -> Option<BandWork<'w>> {
+    pub(super) fn new(judging: &'w RuleOnSite<'w>, plot: &JudgedPlot) -> Option<BandWork<'w>> {
         let RuleReceiver::Lines { height_m, over, deemed, bands, corners } = &judging.rule.receiver else {
             return None;
         };

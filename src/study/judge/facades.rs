@@ -1,7 +1,7 @@
 //! Façades: all their points must keep the rule, and the worst one is reported.
 
 use super::super::StudyError;
-use super::judging::{BothStates, Judging, Steps};
+use super::judging::{BothStates, RuleOnSite, Steps};
 use super::point_light::{CountedLight, PointLight, is_worse};
 use super::state_search::StateSearch;
 use crate::judgement::{JudgedThing, ReceiverRuling};
@@ -23,7 +23,7 @@ struct Worst {
 
 /// Judges one façade by its points.
 pub(super) fn facade(
-    judging: &Judging<'_>,
+    judging: &RuleOnSite<'_>,
     searches: &BothStates,
     facade: &JudgedFacade,
     steps: &mut Steps<'_, '_>,
@@ -59,7 +59,7 @@ pub(super) fn facade(
     }))
 }
 
-fn of_point(judging: &Judging<'_>, searches: &BothStates, point: [DVec3; 2]) -> Result<Worst, StudyError> {
+fn of_point(judging: &RuleOnSite<'_>, searches: &BothStates, point: [DVec3; 2]) -> Result<Worst, StudyError> {
     let open = judging.days.open(Some(point[1]));
     let at = |search: &StateSearch| search.in_plane(point[0], point[1]);
     let (now, before) = searches.lit(at, None, judging.days, &open)?;

@@ -18,7 +18,7 @@ struct Room<'a> {
 }
 
 /// All windows of a site, judged one by one.
-pub(super) struct WindowsJudged<'a> {
+pub(super) struct WindowRulings<'a> {
     pub(super) rule: &'a ResolvedRule,
     pub(super) days: &'a [RuleDay],
     pub(super) windows: &'a [JudgedWindow],
@@ -29,7 +29,7 @@ pub(super) struct WindowsJudged<'a> {
 }
 
 /// The groups of a rule for windows; empty if it judges each window by itself.
-pub(super) fn groups(judged: &WindowsJudged<'_>) -> Result<Vec<GroupRuling>, StudyError> {
+pub(super) fn groups(judged: &WindowRulings<'_>) -> Result<Vec<GroupRuling>, StudyError> {
     let RuleReceiver::Window { group, all_of, .. } = &judged.rule.receiver else { return Ok(Vec::new()) };
     let mut groups = Vec::new();
     if *group == Some(Grouping::Room) || judged.rule.dwelling.is_some() {
@@ -55,7 +55,7 @@ pub(super) fn of_groups(groups: &[GroupRuling]) -> Option<Verdict> {
     of(GroupKind::House).or_else(|| of(GroupKind::Dwelling)).or_else(|| of(GroupKind::Room))
 }
 
-fn rooms(judged: &WindowsJudged<'_>) -> Result<Vec<GroupRuling>, StudyError> {
+fn rooms(judged: &WindowRulings<'_>) -> Result<Vec<GroupRuling>, StudyError> {
     let is_union = matches!(&judged.rule.receiver, RuleReceiver::Window { group: Some(Grouping::Room), .. });
     let mut rooms: Vec<Room<'_>> = Vec::new();
     for (at, window) in judged.windows.iter().enumerate() {
@@ -87,16 +87,16 @@ fn rooms(judged: &WindowsJudged<'_>) -> Result<Vec<GroupRuling>, StudyError> {
 }
 
 /// The light of several windows together: lit while any of them is.
-fn union(judged: &WindowsJudged<'_>, windows: &[usize]) -> CountedLight {
+fn union(judged: &WindowRulings<'_>, windows: &[usize]) -> CountedLight {
     together(judged, windows.iter().map(|at| &judged.lights[*at].light))
 }
 
-fn together<'l>(judged: &WindowsJudged<'_>, lights: impl Iterator<Item = &'l PointLight>) -> CountedLight {
+fn together<'l>(judged: &WindowRulings<'_>, lights: impl Iterator<Item = &'l PointLight>) -> CountedLight {
     let lights: Vec<CountedLight> = lights.map(PointLight::counted).collect();
     CountedLight::any(&lights.iter().collect::<Vec<_>>(), judged.days.len())
 }
 
-fn dwellings(judged: &WindowsJudged<'_>, rooms: &[GroupRuling]) -> Result<Vec<GroupRuling>, StudyError> {
+fn dwellings(judged: &WindowRulings<'_>, rooms: &[GroupRuling]) -> Result<Vec<GroupRuling>, StudyError> {
     let mut names: Vec<&str> = Vec::new();
     for room in rooms {
         if let Some(dwelling) = room.dwelling.as_deref()
@@ -132,7 +132,7 @@ fn dwellings(judged: &WindowsJudged<'_>, rooms: &[GroupRuling]) -> Result<Vec<Gr
 }
 
 /// The dwellings that windows and open spaces belong to, in their order.
-fn dwelling_names<'a>(judged: &WindowsJudged<'a>) -> Vec<&'a str> {
+fn dwelling_names<'a>(judged: &WindowRulings<'a>) -> Vec<&'a str> {
     let mut names: Vec<&str> = Vec::new();
     let of_windows = judged.windows.iter().filter_map(|window| window.dwelling.as_deref());
     for dwelling in of_windows.chain(judged.open_spaces.iter().map(|(dwelling, _)| dwelling.as_str())) {
@@ -144,7 +144,7 @@ fn dwelling_names<'a>(judged: &WindowsJudged<'a>) -> Vec<&'a str> {
 }
 
 /// Judges the house by its dwellings, each with its uses.
-fn house(judged: &WindowsJudged<'_>, all_of: &[String]) -> Result<Vec<GroupRuling>, StudyError> {
+fn house(judged: &WindowRulings<'_>, all_of: &[String]) -> Result<Vec<GroupRuling>, StudyError> {
     let names = dwelling_names(judged);
     let RuleReceiver::Window { open_spaces, .. } = &judged.rule.receiver else { return Ok(Vec::new()) };
     let criteria: Vec<usize> =
@@ -212,7 +212,7 @@ fn of_uses(rule: &ResolvedRule, uses: &[(String, i64)]) -> Verdict {
 }
 
 /// The number that a criterion counts, on the day with the least.
-fn least_secs(judged: &WindowsJudged<'_>, light: &CountedLight, number: usize) -> Result<i64, StudyError> {
+fn least_secs(judged: &WindowRulings<'_>, light: &CountedLight, number: usize) -> Result<i64, StudyError> {
     debug_assert!(judged.rule.counting.what == CountedTime::Sun);
     let mut least = i64::MAX;
     for day in light.days(judged.days) {

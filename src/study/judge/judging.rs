@@ -12,7 +12,7 @@ use chrono::DateTime;
 use glam::DVec3;
 
 /// A rule and a site.
-pub(super) struct Judging<'a> {
+pub(super) struct RuleOnSite<'a> {
     pub(super) site: &'a JudgedSite,
     pub(super) rule: &'a ResolvedRule,
     pub(super) days: &'a JudgedDays<'a>,
@@ -29,7 +29,7 @@ pub(super) struct BothStates {
 /// When a point is lit: the spells of each day in the state that is judged, and in the one before.
 pub(super) type LitInBoth = (Vec<Vec<LitSpell>>, Option<Vec<Vec<LitSpell>>>);
 
-impl Judging<'_> {
+impl RuleOnSite<'_> {
     /// Both states, for points within the bounds of these.
     pub(super) fn states(&self, points: &[DVec3]) -> BothStates {
         match self.before {

@@ -4,7 +4,7 @@ use super::super::envelope::{DaysNeeded, KeptPlace, KeptThing, SunNeeded};
 use super::super::{OnEvent, StudyError, note_models};
 use super::area_light::{AreaPlace, reach_of};
 use super::days::{JudgedDays, hulls};
-use super::judging::{BothStates, Judging, Steps};
+use super::judging::{BothStates, RuleOnSite, Steps};
 use super::kept_demand::{RuleDemand, days_needed, needed_weight};
 use super::needs;
 use super::open_spaces::of_dwellings;
@@ -107,12 +107,12 @@ pub fn kept_by(
     let rules = rules_of(site, demand);
     let cuts = rules.first().map(|rule| rule.cuts).unwrap_or_default();
     let days = JudgedDays::new(site, cuts, &calendar, &hulls)?;
-    let judgings: Vec<Judging<'_>> =
-        rules.iter().map(|rule| Judging { site, rule, days: &days, before: None }).collect();
+    let judgings: Vec<RuleOnSite<'_>> =
+        rules.iter().map(|rule| RuleOnSite { site, rule, days: &days, before: None }).collect();
     // by night nothing bounds the heights, which would look like an answer
     let has_sun = days.open(None).iter().any(|spells| !spells.is_empty());
     let Some(first) = hulls.first().filter(|_| has_sun) else { return Err(StudyError::NoDay) };
-    let mut steps = Steps::new(on_event, judgings.iter().map(Judging::count).sum(), first.from)?;
+    let mut steps = Steps::new(on_event, judgings.iter().map(RuleOnSite::count).sum(), first.from)?;
     let mut things = Vec::new();
     for judging in &judgings {
         things.extend(match &judging.rule.receiver {
@@ -127,7 +127,7 @@ pub fn kept_by(
 
 /// A place, from its light.
 fn place(
-    judging: &Judging<'_>,
+    judging: &RuleOnSite<'_>,
     demand: &RuleDemand,
     (weight, points): (f64, Vec<DVec3>),
     light: &PointLight,
@@ -145,7 +145,7 @@ fn whole(name: String, places: Vec<KeptPlace>) -> KeptThing {
     KeptThing { name, places, needed }
 }
 
-fn of_windows(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<Vec<KeptThing>, StudyError> {
+fn of_windows(judging: &RuleOnSite<'_>, steps: &mut Steps<'_, '_>) -> Result<Vec<KeptThing>, StudyError> {
     let demand = RuleDemand::of(judging.rule, None)?;
     let lights = windows(judging, steps)?;
     let of = |(window, found): (&JudgedWindow, &WindowLight)| {
@@ -172,7 +172,7 @@ fn of_windows(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<Vec<Ke
     Ok(things)
 }
 
-fn of_facades(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<Vec<KeptThing>, StudyError> {
+fn of_facades(judging: &RuleOnSite<'_>, steps: &mut Steps<'_, '_>) -> Result<Vec<KeptThing>, StudyError> {
     let demand = RuleDemand::of(judging.rule, None)?;
     let all: Vec<DVec3> = judging.site.facades.iter().flat_map(|facade| &facade.points).map(|[at, _]| *at).collect();
     let states = judging.states(&all);
@@ -191,7 +191,7 @@ fn of_facades(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<Vec<Ke
 }
 
 fn of_areas(
-    judging: &Judging<'_>,
+    judging: &RuleOnSite<'_>,
     needed: DaysNeeded,
     steps: &mut Steps<'_, '_>,
 ) -> Result<Vec<KeptThing>, StudyError> {
@@ -209,7 +209,7 @@ fn of_areas(
 }
 
 fn of_area(
-    judging: &Judging<'_>,
+    judging: &RuleOnSite<'_>,
     (demand, states): (&RuleDemand, &BothStates),
     area: &JudgedArea,
     steps: &mut Steps<'_, '_>,
@@ -252,7 +252,7 @@ fn small_parts(parts: &[PartTriangle], longest_m: f64) -> Vec<PartTriangle> {
     small
 }
 
-fn of_lines(judging: &Judging<'_>, highest_m: f64, steps: &mut Steps<'_, '_>) -> Result<Vec<KeptThing>, StudyError> {
+fn of_lines(judging: &RuleOnSite<'_>, highest_m: f64, steps: &mut Steps<'_, '_>) -> Result<Vec<KeptThing>, StudyError> {
     let RuleReceiver::Lines { height_m, over, deemed, bands, corners } = &judging.rule.receiver else {
         return Ok(Vec::new());
     };

@@ -2,7 +2,7 @@
 
 use super::super::StudyError;
 use super::area_light::{AreaPlace, reach_of};
-use super::judging::{Judging, Steps};
+use super::judging::{RuleOnSite, Steps};
 use super::point_light::PointLight;
 use super::samples::{AreaSpot, Samples};
 use crate::judgement::{AreaSize, CountedParts, JudgedThing, LitSpell, ReceiverRuling};
@@ -33,7 +33,7 @@ pub(super) fn of_dwellings<'s>(receiver: &RuleReceiver, site: &'s JudgedSite) ->
 }
 
 /// When each open space is lit.
-pub(super) fn open_spaces(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<Vec<OpenSpace>, StudyError> {
+pub(super) fn open_spaces(judging: &RuleOnSite<'_>, steps: &mut Steps<'_, '_>) -> Result<Vec<OpenSpace>, StudyError> {
     let RuleReceiver::Window { open_spaces: Some(of), .. } = &judging.rule.receiver else { return Ok(Vec::new()) };
     let areas = of_dwellings(&judging.rule.receiver, judging.site);
     if areas.is_empty() {
@@ -52,7 +52,7 @@ pub(super) fn open_spaces(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> R
 }
 
 fn open_space(
-    judging: &Judging<'_>,
+    judging: &RuleOnSite<'_>,
     (of, area): (&OpenSpaces, &JudgedArea),
     (parts, place): (&CountedParts, &AreaPlace<'_>),
     steps: &mut Steps<'_, '_>,

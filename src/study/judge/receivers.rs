@@ -5,7 +5,7 @@ use super::area_light::reach_of;
 use super::areas::area;
 use super::bands::BandWork;
 use super::facades::facade;
-use super::judging::{Judging, Steps};
+use super::judging::{RuleOnSite, Steps};
 use super::open_spaces::{OpenSpace, of_dwellings, open_spaces};
 use super::point_light::PointLight;
 use super::state_search::WallPlane;
@@ -41,7 +41,7 @@ pub(super) struct JudgedReceivers {
     pub(super) open_spaces: Vec<(String, PointLight)>,
 }
 
-impl Judging<'_> {
+impl RuleOnSite<'_> {
     /// The number of receivers.
     pub(super) fn count(&self) -> usize {
         match &self.rule.receiver {
@@ -54,7 +54,7 @@ impl Judging<'_> {
 }
 
 /// All receivers, in the site's order.
-pub(super) fn found(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<JudgedReceivers, StudyError> {
+pub(super) fn found(judging: &RuleOnSite<'_>, steps: &mut Steps<'_, '_>) -> Result<JudgedReceivers, StudyError> {
     match &judging.rule.receiver {
         RuleReceiver::Area { .. } => of_areas(judging, steps),
         RuleReceiver::Facade => of_facades(judging, steps),
@@ -63,7 +63,7 @@ pub(super) fn found(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<
     }
 }
 
-fn of_areas(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<JudgedReceivers, StudyError> {
+fn of_areas(judging: &RuleOnSite<'_>, steps: &mut Steps<'_, '_>) -> Result<JudgedReceivers, StudyError> {
     let site = judging.site;
     let states: Vec<_> = std::iter::once(&site.now).chain(judging.before).collect();
     let searches = judging.states(&reach_of(&site.areas, &states));
@@ -81,7 +81,7 @@ fn of_areas(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<JudgedRe
     Ok(JudgedReceivers { receivers, windows: Vec::new(), open_spaces: Vec::new() })
 }
 
-fn of_facades(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<JudgedReceivers, StudyError> {
+fn of_facades(judging: &RuleOnSite<'_>, steps: &mut Steps<'_, '_>) -> Result<JudgedReceivers, StudyError> {
     let points: Vec<DVec3> = judging.site.facades.iter().flat_map(|facade| &facade.points).map(|[at, _]| *at).collect();
     let searches = judging.states(&points);
     let mut receivers = Vec::new();
@@ -92,7 +92,7 @@ fn of_facades(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<Judged
     Ok(JudgedReceivers { receivers, windows: Vec::new(), open_spaces: Vec::new() })
 }
 
-fn of_bands(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<JudgedReceivers, StudyError> {
+fn of_bands(judging: &RuleOnSite<'_>, steps: &mut Steps<'_, '_>) -> Result<JudgedReceivers, StudyError> {
     let work = judging.site.plot.as_ref().and_then(|plot| BandWork::new(judging, plot));
     let mut receivers = Vec::new();
     for number in 0..work.as_ref().map_or(0, BandWork::count) {
@@ -102,7 +102,7 @@ fn of_bands(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<JudgedRe
     Ok(JudgedReceivers { receivers, windows: Vec::new(), open_spaces: Vec::new() })
 }
 
-fn of_windows(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<JudgedReceivers, StudyError> {
+fn of_windows(judging: &RuleOnSite<'_>, steps: &mut Steps<'_, '_>) -> Result<JudgedReceivers, StudyError> {
     let lights = windows(judging, steps)?;
     let mut receivers = Vec::new();
     for (window, WindowLight { spot, light }) in judging.site.windows.iter().zip(&lights) {
@@ -133,7 +133,11 @@ fn of_windows(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<Judged
 }
 
 /// A receiver that consists of points, with the spells of the days that are reported.
-fn told(judging: &Judging<'_>, mut receiver: ReceiverRuling, light: &PointLight) -> (ReceiverRuling, ShadedReceiver) {
+fn told(
+    judging: &RuleOnSite<'_>,
+    mut receiver: ReceiverRuling,
+    light: &PointLight,
+) -> (ReceiverRuling, ShadedReceiver) {
     tell(judging, &mut receiver, light);
     let normal = receiver.normal;
     let judged = |point: &DVec3| JudgedPoint {
@@ -156,7 +160,7 @@ const MOST_TOLD: usize = 8;
 
 /// Which of the rule's days decides for a receiver: that of its deciding finding; if there is none, the day with the
 /// least sun, or with the most shadow if that is counted.
-pub(super) fn deciding_day(judging: &Judging<'_>, receiver: &ReceiverRuling) -> usize {
+pub(super) fn deciding_day(judging: &RuleOnSite<'_>, receiver: &ReceiverRuling) -> usize {
     let days = judging.days.days;
     let date = receiver.ruling.deciding.and_then(|at| receiver.ruling.findings[at].date);
     let of_date = date.and_then(|date| days.iter().position(|day| day.date == date));
@@ -170,7 +174,7 @@ pub(super) fn deciding_day(judging: &Judging<'_>, receiver: &ReceiverRuling) -> 
     })
 }
 
-fn tell(judging: &Judging<'_>, receiver: &mut ReceiverRuling, light: &PointLight) {
+fn tell(judging: &RuleOnSite<'_>, receiver: &mut ReceiverRuling, light: &PointLight) {
     let count = judging.days.days.len();
     receiver.spells = match count <= MOST_TOLD {
         true => light.told(0..count),

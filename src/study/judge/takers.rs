@@ -2,7 +2,7 @@
 
 use super::super::StudyError;
 use super::days::{JudgedDays, time};
-use super::judging::Judging;
+use super::judging::RuleOnSite;
 use super::state_search::{StateSearch, WallPlane};
 use crate::judgement::{Taker, spells_of};
 use crate::rules::{Spell, common, merged, total_secs, without};
@@ -35,7 +35,7 @@ pub(super) struct TakerDay<'a> {
 
 /// The components that may take the sun.
 pub(super) struct TakerSearch<'a> {
-    judging: &'a Judging<'a>,
+    judging: &'a RuleOnSite<'a>,
     /// The casting components, each with its box.
     boxes: Vec<(u32, [DVec3; 2])>,
     reach: Vec<DVec3>,
@@ -45,7 +45,7 @@ pub(super) struct TakerSearch<'a> {
 
 impl<'a> TakerDay<'a> {
     /// The suns of one day.
-    pub(super) fn new(judging: &Judging<'_>, day: JudgedDays<'a>) -> Result<TakerDay<'a>, SunError> {
+    pub(super) fn new(judging: &RuleOnSite<'_>, day: JudgedDays<'a>) -> Result<TakerDay<'a>, SunError> {
         let site = judging.site;
         let air = site.refraction.then(|| Air::standard(site.place.elevation_m));
         let mut suns = Vec::new();
@@ -62,7 +62,7 @@ impl<'a> TakerDay<'a> {
 
 impl<'a> TakerSearch<'a> {
     /// A search for points within the bounds of these.
-    pub(super) fn new(judging: &'a Judging<'a>, reach: Vec<DVec3>) -> TakerSearch<'a> {
+    pub(super) fn new(judging: &'a RuleOnSite<'a>, reach: Vec<DVec3>) -> TakerSearch<'a> {
         let site = judging.site;
         let mesh = &*site.now.mesh;
         let boxes = (0u32..)

@@ -2,7 +2,7 @@
 
 use super::super::StudyError;
 use super::days::JudgedDays;
-use super::judging::{Judging, Steps};
+use super::judging::{RuleOnSite, Steps};
 use super::open_spaces::of_dwellings;
 use super::receivers::{ShadedReceiver, deciding_day};
 use super::takers::{ShadedPoints, TakerDay, TakerSearch, sort};
@@ -69,7 +69,7 @@ pub(super) fn grade(
 
 /// Finds who takes the sun of the receivers that do not pass, on the deciding day.
 pub(super) fn with_takers(
-    judging: &Judging<'_>,
+    judging: &RuleOnSite<'_>,
     hulls: &[DayWindow],
     receivers: &mut [(ReceiverRuling, ShadedReceiver)],
     steps: &mut Steps<'_, '_>,
@@ -126,7 +126,7 @@ fn takers(
 }
 
 /// Notes on how the site was judged.
-pub(super) fn notes(judging: &Judging<'_>, receivers: &[ReceiverRuling]) -> Vec<Message> {
+pub(super) fn notes(judging: &RuleOnSite<'_>, receivers: &[ReceiverRuling]) -> Vec<Message> {
     let mut notes: Vec<String> = Vec::new();
     let site = judging.site;
     match &judging.rule.receiver {
@@ -176,6 +176,6 @@ pub(super) fn notes(judging: &Judging<'_>, receivers: &[ReceiverRuling]) -> Vec<
     notes.into_iter().map(Message::from).collect()
 }
 
-fn is_inside(judging: &Judging<'_>, window: &crate::site::JudgedWindow) -> bool {
+fn is_inside(judging: &RuleOnSite<'_>, window: &crate::site::JudgedWindow) -> bool {
     crate::judgement::window_spot(&judging.rule.receiver, window).is_some_and(|spot| spot.through.is_some())
 }

@@ -1,7 +1,7 @@
 //! When windows are lit.
 
 use super::super::StudyError;
-use super::judging::{BothStates, Judging, Steps};
+use super::judging::{BothStates, RuleOnSite, Steps};
 use super::point_light::PointLight;
 use super::state_search::{StateSearch, WallPlane};
 use crate::judgement::{SpellBound, WindowSpot, both, clipped, window_spot};
@@ -30,7 +30,7 @@ pub(super) fn wall_plane(spot: &WindowSpot) -> Option<WallPlane> {
 }
 
 /// The light of all windows, in their order.
-pub(super) fn windows(judging: &Judging<'_>, steps: &mut Steps<'_, '_>) -> Result<Vec<WindowLight>, StudyError> {
+pub(super) fn windows(judging: &RuleOnSite<'_>, steps: &mut Steps<'_, '_>) -> Result<Vec<WindowLight>, StudyError> {
     let windows = &judging.site.windows;
     let spots: Vec<WindowSpot> = windows
         .iter()
@@ -58,7 +58,7 @@ fn bits(normal: DVec3) -> [u64; 3] {
     normal.to_array().map(f64::to_bits)
 }
 
-fn open_by_normal(judging: &Judging<'_>, windows: &[JudgedWindow]) -> OpenByNormal {
+fn open_by_normal(judging: &RuleOnSite<'_>, windows: &[JudgedWindow]) -> OpenByNormal {
     let mut normals: Vec<DVec3> = windows.iter().map(|window| window.outward).collect();
     normals.sort_by_key(|normal| bits(*normal));
     // by their bits, as the keys are: −0 equals 0
@@ -68,7 +68,7 @@ fn open_by_normal(judging: &Judging<'_>, windows: &[JudgedWindow]) -> OpenByNorm
 
 /// The light of a window, which is lit while all of its points are.
 fn light(
-    judging: &Judging<'_>,
+    judging: &RuleOnSite<'_>,
     searches: &BothStates,
     (window, spot): (&JudgedWindow, &WindowSpot),
     open: &[Vec<Spell>],
@@ -85,7 +85,7 @@ fn light(
 }
 
 fn light_of_point(
-    judging: &Judging<'_>,
+    judging: &RuleOnSite<'_>,
     searches: &BothStates,
     (window, spot, point): (&JudgedWindow, &WindowSpot, DVec3),
     open: &[Vec<Spell>],

@@ -3,7 +3,7 @@
 use super::block::{AT, left_out, model_of, names, written};
 use super::footprints::{collection, feature, square, volume};
 use gnomon::formats::{Model, ReadOptions, read};
-use gnomon::message::{Field, Message, Piece};
+use gnomon::message::{Field, Message, MessagePart};
 use serde_json::{Value, json};
 
 /// One footprint of 1 m² for each of some properties.
@@ -133,7 +133,7 @@ fn heights_and_bottoms_that_cannot_be_read_are_told() {
 
 /// Whether a hint names the field for the heights of all models.
 fn names_the_field(message: &Message) -> bool {
-    message.hint.iter().any(|piece| matches!(piece, Piece::Where(Field::DefaultHeight, _)))
+    message.hint.iter().any(|piece| matches!(piece, MessagePart::Where(Field::DefaultHeight, _)))
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! The order in which patches are judged.
+//! The order in which the processor judges patches.
 
 use crate::mesh::patches::Patches;
 use glam::DVec3;
