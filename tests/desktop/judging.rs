@@ -69,7 +69,7 @@ fn failing(harness: &mut Harness<'_, App>) -> usize {
 #[test]
 fn verdicts_are_a_table_and_lie_on_the_picture() {
     let (_folder, site) = judged_site();
-    let mut harness = window(Some(&site));
+    let mut harness = with_boxes(Some(&site));
     press(&mut harness, egui::Modifiers::NONE, Key::Num2);
     let before = failing(&mut harness);
     choose(&mut harness, BRE);
@@ -111,7 +111,7 @@ fn verdicts_are_a_table_and_lie_on_the_picture() {
 #[test]
 fn click_on_a_line_moves_the_perspective() {
     let (_folder, site) = judged_site();
-    let mut harness = window(Some(&site));
+    let mut harness = with_boxes(Some(&site));
     choose(&mut harness, BRE);
     judge(&mut harness);
     harness.get_by_label_contains("yard fails").click_accesskit();
@@ -126,7 +126,7 @@ fn click_on_a_line_moves_the_perspective() {
 #[test]
 fn files_of_verdicts_are_those_of_the_command() {
     let (folder, site) = judged_site();
-    let mut harness = window(Some(&site));
+    let mut harness = with_boxes(Some(&site));
     choose(&mut harness, "CEQR Technical Manual, shadows, New York City");
     judge(&mut harness);
     harness.get_by_label("The site is only reported");
@@ -150,7 +150,7 @@ fn files_of_verdicts_are_those_of_the_command() {
 #[test]
 fn missing_things_are_named_by_their_labels() {
     let (_folder, site) = small_site();
-    let mut harness = window(Some(&site));
+    let mut harness = with_boxes(Some(&site));
     judge(&mut harness);
     let fault = |harness: &Harness<'_, App>| harness.state().fault_and_notice()[0].map(str::to_owned).unwrap();
     assert_eq!(fault(&harness), "Choose a rule under \"Judge by a rule\" first");
@@ -177,7 +177,7 @@ fn missing_things_are_named_by_their_labels() {
 #[test]
 fn area_is_drawn_on_the_plan() {
     let (_folder, site) = judged_site();
-    let mut harness = window(Some(&site));
+    let mut harness = with_boxes(Some(&site));
     click(&mut harness, SECTION);
     settle(&mut harness);
     click(&mut harness, "Draw an area");
@@ -237,7 +237,7 @@ fn plot_is_drawn_on_the_plan() {
     let text = std::fs::read_to_string(&site).unwrap();
     let plot = "[plot]\nborder = [[-90, -90], [90, -90], [90, 90]]\nroads = [{ side = 1, width = 6.0 }]\n";
     std::fs::write(&site, text + plot).unwrap();
-    let mut harness = window(Some(&site));
+    let mut harness = with_boxes(Some(&site));
     click(&mut harness, SECTION);
     settle(&mut harness);
     click(&mut harness, "Draw the plot");
@@ -260,7 +260,7 @@ fn plot_is_drawn_on_the_plan() {
 #[test]
 fn windows_are_picked_by_clicks() {
     let (_folder, site) = small_site();
-    let mut harness = window(Some(&site));
+    let mut harness = with_boxes(Some(&site));
     press(&mut harness, egui::Modifiers::NONE, Key::Num2);
     click(&mut harness, SECTION);
     settle(&mut harness);
@@ -301,6 +301,7 @@ fn windows_are_picked_by_clicks() {
     let cell = works.mesh.origin + low + (high - low) * 0.02;
     let at = on_plan(&harness, [cell.x, cell.y]);
     click_at(&mut harness, at);
+    settle(&mut harness);
     assert_eq!(names(&harness), [["cooling-cell-1"]]);
     harness.get_by_label_contains("has no flat piece, as a pane is");
     press(&mut harness, egui::Modifiers::NONE, Key::Escape);
@@ -310,7 +311,7 @@ fn windows_are_picked_by_clicks() {
 #[test]
 fn component_is_proposed_or_demolished() {
     let (_folder, site) = small_site();
-    let mut harness = window(Some(&site));
+    let mut harness = with_boxes(Some(&site));
     click(&mut harness, "Components");
     settle(&mut harness);
     let set = |harness: &mut Harness<'_, App>, name: &str, state: &str| {
@@ -345,7 +346,7 @@ fn rule_beside_the_site_is_listed() {
     let own = text.replace("BRE BR 209, sun on the ground", "Our own rule");
     std::fs::write(folder.path().join("own.toml"), own).unwrap();
     std::fs::write(folder.path().join("broken.toml"), "[rule]\nid = 1\n").unwrap();
-    let mut harness = window(Some(&site));
+    let mut harness = with_boxes(Some(&site));
     choose(&mut harness, "Our own rule, United Kingdom");
     judge(&mut harness);
     harness.get_by_label("Our own rule, United Kingdom");
@@ -364,7 +365,7 @@ fn files_of_what_is_judged_are_found_from_another_folder() {
     let before = folder.path().join("before.toml");
     std::fs::write(&before, &text).unwrap();
     std::fs::write(&site, text + "[before]\nsite = \"before.toml\"\n").unwrap();
-    let mut harness = window(Some(&site));
+    let mut harness = with_boxes(Some(&site));
     let other = folder.path().join("other");
     std::fs::create_dir(&other).unwrap();
     menu(&mut harness, "Save as…");

@@ -94,9 +94,11 @@ fn areas(ui: &mut Ui, typed: &mut TypedText, areas: &mut Vec<AreaTable>) {
     let mut removed = None;
     for (index, area) in areas.iter_mut().enumerate() {
         entry(ui, &format!("Remove area {}", index + 1), &mut removed, index, |ui, width| {
-            let label = ui.weak("area").on_hover_text(area_said(area)).id;
+            let label = ui.weak("area").on_hover_text(area_said(area));
             let name = area.name.clone().unwrap_or_default();
             let field = format!("Name of area {}", index + 1);
+            label.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &field));
+            let label = label.id;
             if let Some(name) = typed.text(ui, (&field, label), &name, width - 34.0, |text| Ok(text.trim().to_owned()))
             {
                 area.name = Some(name).filter(|name| !name.is_empty());

@@ -156,6 +156,8 @@ fn named(ui: &mut egui::Ui, of: &ListedComponent<'_>) -> Option<ComponentState> 
             if entry.on_disabled_hover_text("The state before is another file, which says what stands there").clicked()
             {
                 chosen = Some(state);
+                // a choice by assistive technology is no click of a pointer, which would close it
+                ui.close();
             }
         }
     });

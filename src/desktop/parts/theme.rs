@@ -39,7 +39,7 @@ pub(in crate::desktop) fn accent(visuals: &egui::Visuals) -> Color32 {
     if visuals.dark_mode { ACCENT_ON_DARK } else { ACCENT }
 }
 
-/// A font of the system for letters that the drawings' font lacks.
+/// A font of the system for letters that the drawings' font lacks. Letters that none has are drawn as boxes.
 fn system_font(request: &FallbackRequest<'_>) -> Option<FontInsert> {
     let (font, index) = figure::face_with(request.cluster.chars().next()?)?;
     let name = format!("system font for {}", request.cluster);
@@ -59,9 +59,8 @@ pub(in crate::desktop) fn set(context: &egui::Context) {
         }
     }
     context.set_fonts(fonts);
-    // names of components and of rules may be in any script; what no font of the system has either is drawn as a box
+    // names of components and of rules may be in any script
     context.add_font_provider(Arc::new(system_font));
-    context.set_missing_glyph_policy(egui::MissingGlyphPolicy::Tofu);
     context.all_styles_mut(|style| {
         style.text_styles = [
             (TextStyle::Small, FontId::proportional(11.5)),
