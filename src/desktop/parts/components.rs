@@ -142,9 +142,11 @@ fn named(ui: &mut egui::Ui, of: &ListedComponent<'_>) -> Option<ComponentState> 
     let whole = format!("{}{}", of.name, of.state.mark());
     let fits = |text: &str| theme::width_of(ui, text) <= ui.available_width();
     let cut = without_middle(&whole, fits);
-    let response = ui.add(egui::Label::new(cut).sense(Sense::click()));
-    let label = whole.clone();
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, label.clone()));
+    let response = ui.add(egui::Label::new(&cut).sense(Sense::click()));
+    response.widget_info(|| egui::WidgetInfo {
+        current_text_value: Some(cut.clone()),
+        ..egui::WidgetInfo::labeled(egui::Role::Button, true, &whole)
+    });
     let hover =
         if of.is_other_file { "the state before is another file" } else { "click: existing, proposed or demolished" };
     let response = response.on_hover_text(format!("{whole}\n{hover}"));
