@@ -93,20 +93,58 @@ fn merge(into: &mut dyn TableLike, before: &Table, after: &Table) -> Result<(), 
     Ok(())
 }
 
-/// The indices of the tables that a shorter list lacks: those that differ from the next one that is left, from the front
-/// on. So a table keeps its comments if one before it is removed.
-fn removed(before: &[&Value], after: &[Value]) -> Vec<usize> {
-    let mut surplus = before.len().saturating_sub(after.len());
-    let (mut left, mut removed) = (after.iter().peekable(), Vec::new());
-    for (index, table) in before.iter().enumerate() {
-        if surplus > 0 && left.peek() != Some(table) {
-            removed.push(index);
-            surplus -= 1;
-        } else {
-            left.next();
+/// For each table of a list the index of the one that it was before, if it was there: of equal tables as many as can keep
+/// their order, and between them one after the other. So a table keeps its comments whatever goes or comes beside it.
+fn former(before: &[Value], after: &[Value]) -> Vec<Option<usize>> {
+    let equal = |pairs: &mut dyn Iterator<Item = (&Value, &Value)>| pairs.take_while(|(old, new)| old == new).count();
+    let front = equal(&mut before.iter().zip(after));
+    let (old, new) = (&before[front..], &after[front..]);
+    let back = equal(&mut old.iter().rev().zip(new.iter().rev()));
+    let (old, new) = (&old[..old.len() - back], &new[..new.len() - back]);
+    let between = match old.len() * new.len() <= MOST_PAIRS {
+        true => former_between(old, new),
+        false => (0..new.len()).map(|index| (index < old.len()).then_some(index)).collect(),
+    };
+    let between = between.into_iter().map(|index| index.map(|index| index + front));
+    let at_back = (before.len() - back..before.len()).map(Some);
+    (0..front).map(Some).chain(between).chain(at_back).collect()
+}
+
+/// The most pairs of tables that are compared for their order; of longer lists tables are taken one after the other.
+const MOST_PAIRS: usize = 1 << 20;
+
+/// The same for the tables between equal ones at the front and at the back.
+fn former_between(before: &[Value], after: &[Value]) -> Vec<Option<usize>> {
+    // the most equal tables from an index of each list on
+    let mut most = vec![vec![0usize; after.len() + 1]; before.len() + 1];
+    for one in (0..before.len()).rev() {
+        for other in (0..after.len()).rev() {
+            most[one][other] = match before[one] == after[other] {
+                true => most[one + 1][other + 1] + 1,
+                false => most[one + 1][other].max(most[one][other + 1]),
+            };
         }
     }
-    removed
+    let (mut former, mut one, mut other) = (vec![None; after.len()], 0, 0);
+    // the first tables since the last equal ones
+    let (mut first, mut second) = (0, 0);
+    loop {
+        let is_end = one == before.len() || other == after.len();
+        if is_end || before[one] == after[other] {
+            let ends = if is_end { [before.len(), after.len()] } else { [one, other] };
+            (first..ends[0]).zip(second..ends[1]).for_each(|(old, new)| former[new] = Some(old));
+            if is_end {
+                return former;
+            }
+            former[other] = Some(one);
+            (one, other) = (one + 1, other + 1);
+            (first, second) = (one, other);
+        } else if most[one + 1][other] >= most[one][other + 1] {
+            one += 1;
+        } else {
+            other += 1;
+        }
+    }
 }
 
 /// The same for the tables of a list, such as `[[model]]` and `[[area]]`, one after the other.
@@ -117,23 +155,15 @@ fn merge_list(item: &mut Item, before: &[Value], after: &[Value]) -> Result<(), 
         *item = Item::ArrayOfTables(list);
     }
     let Some(list) = item.as_array_of_tables_mut() else { return Err("not a list of tables".to_owned()) };
-    let mut before: Vec<&Value> = before.iter().collect();
-    for index in removed(&before, after).into_iter().rev() {
-        before.remove(index);
-        if index < list.len() {
-            list.remove(index);
-        }
-    }
+    let written: Vec<toml_edit::Table> = list.iter().cloned().collect();
+    list.clear();
     let none = Table::new();
-    for (index, after) in after.iter().filter_map(Value::as_table).enumerate() {
-        let mut old = before.get(index).and_then(|table| table.as_table()).unwrap_or(&none);
-        if index >= list.len() {
-            list.push(toml_edit::Table::new());
-            old = &none;
-        }
-        if let Some(table) = list.get_mut(index) {
-            merge(table, old, after)?;
-        }
+    for (after, former) in after.iter().zip(former(before, after)) {
+        let Some(after) = after.as_table() else { continue };
+        let known = former.and_then(|index| written.get(index).zip(before[index].as_table()));
+        let (mut table, old) = known.map_or((toml_edit::Table::new(), &none), |(table, old)| (table.clone(), old));
+        merge(&mut table, old, after)?;
+        list.push(table);
     }
     Ok(())
 }

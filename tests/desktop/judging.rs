@@ -81,7 +81,7 @@ fn verdicts_are_a_table_and_lie_on_the_picture() {
     // what fails goes first, with its margin, day and taker
     let (yard, yard_at) = named(&harness, "yard fails");
     assert!(yard.starts_with("yard fails: 43.") && yard.contains("for a limit of 50.00 %, margin −6."), "{yard}");
-    assert!(yard.contains("on 2026-03-21, taken by hall-east/wall"), "{yard}");
+    assert!(yard.contains("on 2026-03-21, taken by tank-1/steel"), "{yard}");
     let (field, field_at) = named(&harness, "field passes");
     assert!(yard_at.top() < field_at.top(), "{field}");
     click(&mut harness, "Sort by name");
@@ -96,7 +96,7 @@ fn verdicts_are_a_table_and_lie_on_the_picture() {
     assert!(grid.east() - grid.west < 100.0, "the yard is large enough to be seen");
     harness.get_by_label("The day of 2026-03-21");
     harness.get_by_label("2026-03-21, which decides");
-    harness.get_by_label_contains("hall-east/wall: ");
+    harness.get_by_label_contains("hall-east/roof: ");
     assert!(harness.query_all_by_label_contains("before: ").count() > 0);
     let painted = failing(&mut harness);
     assert!(painted > before + 500, "{painted} pixels, and {before} before");
@@ -293,16 +293,16 @@ fn windows_are_picked_by_clicks() {
     harness.run_steps(30);
     click(&mut harness, "Remove windows 1");
     settle(&mut harness);
-    let faces = component("cooling-cell-1").faces.clone();
+    let faces = component("tank-1/steel").faces.clone();
     let corners = faces.flat_map(|face| works.mesh.corners(face as usize)).map(|corner| corner.as_dvec3());
     let (low, high) = corners.fold((glam::DVec3::INFINITY, glam::DVec3::NEG_INFINITY), |(low, high), corner| {
         (low.min(corner), high.max(corner))
     });
-    let cell = works.mesh.origin + low + (high - low) * 0.02;
-    let at = on_plan(&harness, [cell.x, cell.y]);
+    let tank = works.mesh.origin + (low + high) / 2.0;
+    let at = on_plan(&harness, [tank.x, tank.y]);
     click_at(&mut harness, at);
     settle(&mut harness);
-    assert_eq!(names(&harness), [["cooling-cell-1"]]);
+    assert_eq!(names(&harness), [["tank-1/steel"]]);
     harness.get_by_label_contains("has no flat piece, as a pane is");
     press(&mut harness, egui::Modifiers::NONE, Key::Escape);
 }

@@ -41,6 +41,7 @@ fn rules(app: &mut App, ui: &mut Ui) -> bool {
                         let entry = egui::Button::selectable(*name == choice.name, titled(rule));
                         if ui.add(entry).on_hover_text(format!("{name}\n{}", known_as(rule))).clicked() {
                             choice.take(name, rule);
+                            ui.close();
                         }
                     }
                     Err(error) => {

@@ -81,7 +81,7 @@ fn heading(app: &mut App, ui: &mut Ui, judged: &JudgedResult) {
     let is_asked = app.open.as_ref().is_some_and(|open| judged.is_asked(&open.project, &open.judge.choice));
     ui.horizontal(|ui| {
         let hover = "JSON with everything, and the table as CSV, into a folder";
-        exports = ui.button("Export the verdicts…").on_hover_text(hover).clicked();
+        exports = ui.button("Export…").on_hover_text(hover).clicked();
         closes = ui.button("Close the table").clicked();
     });
     if !is_asked {
