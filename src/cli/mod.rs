@@ -81,7 +81,10 @@ pub fn main(window: Option<WindowOpener>) -> ExitCode {
         Ok(status) => status,
         Err(error) => {
             complain(&fault::line(error.as_ref(), &Options));
-            ExitCode::from(status(&error))
+            let status = status(&error);
+            // of a judgement 1 is the verdict that the site fails
+            let is_judgement = matches!(arguments.command, Some(Command::Judge(_)));
+            ExitCode::from(if is_judgement && status == 1 { 2 } else { status })
         }
     }
 }

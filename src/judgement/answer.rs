@@ -93,6 +93,12 @@ pub struct AreaSize {
     /// The error of the part that keeps the rule, up or down, square metres. It is exceeded with a probability of
     /// [`ERROR_ODDS`] at most.
     pub error_m2: f64,
+    /// Where area times time is counted, the error of its sum, up or down, square metres × seconds, as the last
+    /// splits of triangles changed it.
+    pub error_m2_secs: Option<f64>,
+    /// Where new shadow on any part is looked for, the greatest distance between points, metres: narrower shadow may
+    /// lie between them.
+    pub apart_m: Option<f64>,
 }
 
 /// What the rule counts at a receiver's points on a day.

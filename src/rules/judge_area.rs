@@ -15,6 +15,8 @@ pub struct PartMet {
     pub before_m2: Option<f64>,
     /// The uncertainty of both, ± square metres.
     pub error_m2: f64,
+    /// Whether any of its points has less sun than before.
+    pub has_less: bool,
 }
 
 /// An area on one day.
@@ -87,7 +89,13 @@ impl ResolvedRule {
             Extent::OfBefore(ratio) => (ratio * met.before_m2.unwrap_or(0.0), met.error_m2 * (1.0 + ratio)),
             Extent::Whole | Extent::Dwellings(_) | Extent::Sunless { .. } => return Ok(None),
         };
-        let weight = Weight { value: met.now_m2, error: error_m2, least: least_m2, before: met.before_m2 };
+        let weight = Weight {
+            value: met.now_m2,
+            error: error_m2,
+            least: least_m2,
+            before: met.before_m2,
+            has_less: met.has_less,
+        };
         let (verdict, excuse) = weight.verdict(criterion);
         Ok(Some(Finding {
             criterion: number,

@@ -175,6 +175,7 @@ fn at_least(
         error: 0.0,
         least: secs as f64,
         before: before.map(|before| before.secs as f64),
+        has_less: false,
     };
     let (mut verdict, mut excuse) = numbers.verdict(criterion);
     if verdict != Verdict::Pass && reference.is_some_and(|reference| now.secs >= reference.secs) {

@@ -70,7 +70,10 @@ pub fn rule_for_site(name: &str, folder: &Path) -> Result<Rule, RuleError> {
     let is_file = name.ends_with(".toml");
     let path = folder.join(if is_file { name.to_owned() } else { format!("{name}.toml") });
     if is_file || path.is_file() {
-        return Rule::parse(&path.display().to_string(), &text_of(&path)?);
+        let file = path.display().to_string();
+        let mut rule = Rule::parse(&file, &text_of(&path)?)?;
+        rule.source.file = Some(file);
+        return Ok(rule);
     }
     Rule::parse(name, built_in_text(name)?)
 }

@@ -86,6 +86,8 @@ pub struct RuleSource {
     pub sources: Vec<String>,
     /// Assumptions, and what could not be read.
     pub assumes: Vec<String>,
+    /// The file beside the site that it was read from; `None` for a built-in rule.
+    pub file: Option<String>,
 }
 
 /// A rule whose options are not set yet.
@@ -222,6 +224,7 @@ fn source(table: TableReader) -> Result<RuleSource, RuleError> {
         confidence: table.word("confidence")?.ok_or_else(|| table.wrong("confidence", "it is required"))?,
         sources: owned(table.texts("sources")?),
         assumes: owned(table.texts("assumes")?),
+        file: None,
     };
     let is_id = source.id.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-');
     if !is_id {

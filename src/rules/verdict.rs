@@ -1,5 +1,6 @@
 //! Verdicts, and the findings they are based on.
 
+use super::counting::CountedTime;
 use super::days::DayJudge;
 use super::resolved::ResolvedRule;
 use crate::choice::words;
@@ -171,13 +172,23 @@ impl ResolvedRule {
         }
     }
 
+    /// As [`Finding::slack`]; of reports the worst day decides: the one with the least sun, or the most shadow.
+    fn slack(&self, finding: &Finding) -> f64 {
+        match (finding.verdict, finding.value) {
+            (Verdict::Report, Quantity::Secs(secs)) if self.counting.what == CountedTime::Sun => secs as f64,
+            (Verdict::Report, Quantity::Secs(secs)) => -(secs as f64),
+            (Verdict::Report, Quantity::AreaTime(m2_secs)) => -m2_secs,
+            _ => finding.slack(),
+        }
+    }
+
     /// Combines the criteria of one day; `offset` is the index of its first finding.
     fn of_case(&self, findings: &[Finding], offset: usize) -> Standing {
         let one = |(at, finding): (usize, &Finding)| Standing {
             verdict: finding.verdict,
             grades: 0,
             deciding: Some(offset + at),
-            slack: finding.slack(),
+            slack: self.slack(finding),
         };
         let is_graded = self.criteria.iter().any(|criterion| criterion.grade.is_some());
         let each = findings.iter().enumerate().map(one);

@@ -12,6 +12,8 @@ pub(super) struct Weight {
     pub(super) least: f64,
     /// The number before.
     pub(super) before: Option<f64>,
+    /// Whether a part of what is counted has become less, though the number may not show it.
+    pub(super) has_less: bool,
 }
 
 /// Whether a number reaches a limit. Limits may be products, so a rounding error does not fail.
@@ -31,7 +33,7 @@ pub(super) fn verdict_of(value: f64, error: f64, least: f64) -> Verdict {
 impl Weight {
     /// The verdict, with what the criterion accepts instead of its limit.
     pub(super) fn verdict(&self, criterion: &Criterion) -> (Verdict, Option<Excuse>) {
-        let Weight { value, error, least, before } = *self;
+        let Weight { value, error, least, before, has_less } = *self;
         let own = verdict_of(value, error, least);
         let ratio = criterion.or_ratio.zip(before);
         let by_ratio =
@@ -42,8 +44,14 @@ impl Weight {
                 Verdict::Fail => Verdict::Pass,
                 other => other,
             };
-            // equal numbers from one method mean that nothing has changed
-            let held = if value == before { Verdict::Pass } else { verdict_of(value, 2.0 * error, before) };
+            // equal numbers from one method mean that nothing has changed, unless a part of it has
+            let held = if has_less {
+                Verdict::Fail
+            } else if value == before {
+                Verdict::Pass
+            } else {
+                verdict_of(value, 2.0 * error, before)
+            };
             (Excuse::NoWorse, Verdict::all([failed, held]))
         });
         let excuses = [by_ratio, no_worse];

@@ -40,6 +40,25 @@ fn the_worst_of_each_line_is_found() {
     assert!(found.receivers.iter().all(|band| band.takers[0].component == 0));
 }
 
+/// Such rules are of the building alone: a shed beside the plot changes nothing, and a note says that it does not count.
+#[test]
+fn what_stands_beside_the_plot_does_not_count() {
+    let mut beside = boxed();
+    let parts = vec![
+        cuboid("box", dvec3(-10.0, -5.0, 0.0), dvec3(10.0, 5.0, 7.5)),
+        cuboid("shed", dvec3(-4.0, 16.0, 0.0), dvec3(4.0, 20.0, 9.0)),
+    ];
+    let plot = beside.plot.take();
+    beside = JudgedSite { plot, ..site(beside.place.clone(), parts, None) };
+    let [alone, with_shed] = [boxed(), beside].map(|asked| judged(&asked, JAPAN, &options("2h")));
+    for (one, other) in alone.receivers.iter().zip(&with_shed.receivers) {
+        assert_eq!(super::value_secs(one), super::value_secs(other), "{}", one.name);
+    }
+    let said: Vec<String> = with_shed.notes.iter().map(|note| note.in_words(&gnomon::message::PlainWords)).collect();
+    assert!(said.iter().any(|note| note.contains("1 component beside it is left out")), "{said:?}");
+    assert!(alone.notes.is_empty(), "{:?}", alone.notes);
+}
+
 /// A road in the north moves the border, and a higher neighbour raises the plane.
 #[test]
 fn roads_and_levels_ease_it() {

@@ -8,7 +8,7 @@ use gnomon::rules::{
 /// The ruling on an area, of which a given share meets each criterion, within an error.
 fn part(rule: &ResolvedRule, area_m2: f64, now_m2: f64, before_m2: Option<f64>, error_m2: f64) -> Ruling {
     let days = calendar(rule);
-    let met = vec![Some(PartMet { now_m2, before_m2, error_m2 }); rule.criteria.len()];
+    let met = vec![Some(PartMet { now_m2, before_m2, error_m2, has_less: false }); rule.criteria.len()];
     let lights: Vec<_> = days.iter().map(|day| AreaLight { day, met: met.clone() }).collect();
     rule.judge_parts(area_m2, &lights).expect("a ruling")
 }
@@ -107,12 +107,32 @@ fn new_shadow_is_a_share_of_the_sun_of_a_year() {
     );
 }
 
+/// Where an area had less before, a point that loses sun fails it, though no more of the area misses the hours.
+#[test]
+fn what_failed_before_may_lose_nothing() {
+    let victoria = rule("au-vic-b21", &[]);
+    let days = calendar(&victoria);
+    let verdict = |now_m2: f64, before_m2: f64, has_less: bool| {
+        let met = vec![
+            Some(PartMet { now_m2, before_m2: Some(before_m2), error_m2: 0.0, has_less });
+            victoria.criteria.len()
+        ];
+        let lights: Vec<_> = days.iter().map(|day| AreaLight { day, met: met.clone() }).collect();
+        victoria.judge_parts(100.0, &lights).expect("a ruling").verdict
+    };
+    assert_eq!([verdict(0.0, 0.0, false), verdict(0.0, 0.0, true)], [Verdict::Pass, Verdict::Fail]);
+    assert_eq!([verdict(20.0, 20.0, false), verdict(20.0, 20.0, true)], [Verdict::Pass, Verdict::Fail]);
+    assert_eq!(verdict(80.0, 90.0, true), Verdict::Pass, "what keeps its hours may lose some sun");
+}
+
 #[test]
 fn what_is_not_there_is_asked_for() {
     let bre = rule("uk-bre-209-sun-on-ground", &[]);
     let days = calendar(&bre);
-    let light =
-        |before_m2| AreaLight { day: &days[0], met: vec![Some(PartMet { now_m2: 1.0, before_m2, error_m2: 0.0 })] };
+    let light = |before_m2| AreaLight {
+        day: &days[0],
+        met: vec![Some(PartMet { now_m2: 1.0, before_m2, error_m2: 0.0, has_less: false })],
+    };
     assert!(bre.judge_parts(10.0, &[light(None)]).is_err_and(|error| error.to_string().contains("state before")));
     for area in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(bre.judge_parts(area, &[light(Some(1.0))]).is_err(), "{area}");

@@ -1,7 +1,7 @@
 //! The CSV of a judgement.
 
 use super::super::names::field;
-use super::numbers::{date_of, deciding, excuse, least_counted, number, secs_of, share_of};
+use super::numbers::{date_of, deciding, excuse, number, secs_of, share_of, worst_counted};
 use crate::judgement::{Judgement, ReceiverRuling};
 use std::fmt::Write;
 
@@ -25,7 +25,7 @@ fn cells(judgement: &Judgement, of: &ReceiverRuling) -> Vec<String> {
     let text = |text: &Option<String>| text.clone().unwrap_or_default();
     let written = |number: Option<f64>| number.map(|number| (number + 0.0).to_string()).unwrap_or_default();
     let value = finding.map(|finding| number(finding.value));
-    let counted = least_counted(of).map(|(_, secs)| (secs as f64, "s"));
+    let counted = worst_counted(judgement, of).map(|(_, secs)| (secs as f64, "s"));
     let (value, unit) = value.or(counted).map_or((None, ""), |(value, unit)| (Some(value), unit));
     let before = finding.and_then(|finding| finding.before);
     let limit = finding.and_then(|finding| finding.limit);

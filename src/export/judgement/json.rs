@@ -3,7 +3,8 @@
 use super::super::ExportError;
 use super::super::report::{self, GroundReport, PlaceReport, ground_report, place_report, stamp, tz_version};
 use super::numbers::{
-    CHECK, blocker, component_name, date_of, deciding, least_counted, number, secs_of, share_of, time,
+    CHECK, blocker, component_name, date_of, deciding, no_sun_left_limit, number, secs_of, share_of, time,
+    worst_counted,
 };
 use super::rule_report::{RuleReport, SettledReport, rule_report, settled_report};
 use crate::judgement::{ERROR_ODDS, GroupRuling, Judgement, LitSpell, ReceiverRuling, ReceiverSpells, Taker};
@@ -77,6 +78,10 @@ struct ReceiverReport<'a> {
     difference_secs: Option<i64>,
     area_m2: Option<f64>,
     narrow_m2: Option<f64>,
+    /// The error of area times time.
+    error_m2_secs: Option<f64>,
+    /// The greatest distance between points where new shadow is looked for.
+    points_apart_m: Option<f64>,
     area_points: Option<usize>,
     share: Option<f64>,
     share_limit: Option<f64>,
@@ -119,6 +124,9 @@ struct FindingReport<'a> {
     margin: Option<f64>,
     excuse: Option<String>,
     no_sun_left_secs: Option<i64>,
+    /// The time from which the loss of all sun is significant by the rule, and whether it is.
+    no_sun_left_limit_secs: Option<i64>,
+    significant: Option<bool>,
 }
 
 #[derive(Serialize)]
@@ -231,13 +239,20 @@ fn lit(spells: &[LitSpell], place: &Place, state: &JudgedState) -> Vec<LitSpellR
     spells.iter().map(of).collect()
 }
 
+fn worst(judgement: &Judgement, of: &ReceiverRuling) -> WorstReport {
+    WorstReport {
+        date: date_of(judgement, of).map(|date| date.to_string()),
+        point: of.points.first().map(|point| point.to_array()),
+    }
+}
+
 fn receiver_report<'a>(judgement: &'a Judgement, site: &JudgedSite, of: &'a ReceiverRuling) -> ReceiverReport<'a> {
     let finding = deciding(&of.ruling);
     let value = finding.map(|finding| finding.value);
     let (before, limit) = (finding.and_then(|finding| finding.before), finding.and_then(|finding| finding.limit));
     let m2 = of.area.map(|area| area.m2);
     let share = |quantity: Option<Quantity>| m2.and_then(|m2| share_of(quantity, m2));
-    let counted = || least_counted(of).filter(|_| finding.is_none()).map(|(_, secs)| secs);
+    let counted = || worst_counted(judgement, of).filter(|_| finding.is_none()).map(|(_, secs)| secs);
     let value_secs = secs_of(value).or_else(counted);
     let is_secs = secs_of(value).is_some();
     let margin = finding.and_then(|finding| finding.margin);
@@ -261,6 +276,8 @@ fn receiver_report<'a>(judgement: &'a Judgement, site: &JudgedSite, of: &'a Rece
         difference_secs: secs_of(value).zip(secs_of(before)).map(|(now, before)| now - before),
         area_m2: m2,
         narrow_m2: of.area.map(|area| area.narrow_m2),
+        error_m2_secs: of.area.and_then(|area| area.error_m2_secs),
+        points_apart_m: of.area.and_then(|area| area.apart_m),
         area_points: of.area.map(|area| area.points),
         share: share(value),
         share_limit: share(limit),
@@ -270,10 +287,7 @@ fn receiver_report<'a>(judgement: &'a Judgement, site: &JudgedSite, of: &'a Rece
         share_error: of.area.filter(|_| share(value).is_some()).map(|area| area.error_m2 / area.m2),
         share_error_odds: of.area.filter(|_| share(value).is_some()).map(|_| ERROR_ODDS),
         excuse: finding.and_then(|finding| finding.excuse).map(super::numbers::excuse),
-        worst: WorstReport {
-            date: date_of(judgement, of).map(|date| date.to_string()),
-            point: of.points.first().map(|point| point.to_array()),
-        },
+        worst: worst(judgement, of),
         points: of.points.iter().map(|point| point.to_array()).collect(),
         normal: of.normal.map(|normal| normal.to_array()),
         seconds_by_day: of.counts.iter().map(|count| count.now_secs).collect(),
@@ -315,6 +329,11 @@ fn findings<'a>(judgement: &'a Judgement, ruling: &'a Ruling) -> Vec<FindingRepo
             margin: finding.margin,
             excuse: finding.excuse.map(super::numbers::excuse),
             no_sun_left_secs: finding.no_sun_left_secs,
+            no_sun_left_limit_secs: no_sun_left_limit(judgement, finding),
+            significant: finding
+                .no_sun_left_secs
+                .zip(no_sun_left_limit(judgement, finding))
+                .map(|(secs, limit)| secs >= limit),
         }
     };
     match judgement.days.len() <= MOST_TOLD {

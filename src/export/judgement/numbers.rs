@@ -1,7 +1,7 @@
 //! The numbers that decide, as they are printed.
 
 use crate::judgement::{Judgement, ReceiverRuling, SpellBound};
-use crate::rules::{Excuse, Finding, Quantity, Ruling};
+use crate::rules::{CountedTime, Demand, Excuse, Finding, Quantity, Ruling};
 use crate::site::JudgedState;
 use crate::sun::{Place, Zone};
 use chrono::{DateTime, NaiveDate, TimeZone};
@@ -44,16 +44,24 @@ pub(super) fn share_of(quantity: Option<Quantity>, m2: f64) -> Option<f64> {
     quantity.and_then(|quantity| if let Quantity::AreaM2(part) = quantity { Some(part / m2) } else { None })
 }
 
-/// The seconds that are reported for a receiver if no finding has any: those of the day with the least.
-pub(super) fn least_counted(receiver: &ReceiverRuling) -> Option<(usize, i64)> {
+/// The seconds that are reported for a receiver if no finding has any: those of the day with the least sun, or with the
+/// most shadow if that is counted.
+pub(super) fn worst_counted(judgement: &Judgement, receiver: &ReceiverRuling) -> Option<(usize, i64)> {
+    let of_sun = judgement.rule.counting.what == CountedTime::Sun;
     let counted = receiver.counts.iter().map(|count| count.now_secs).enumerate();
-    counted.min_by_key(|(_, secs)| *secs)
+    counted.min_by_key(|(_, secs)| if of_sun { *secs } else { -*secs })
 }
 
-/// The day that decides; if none does, the one with the least.
+/// The day that decides; if none does, the worst one.
 pub(super) fn date_of(judgement: &Judgement, receiver: &ReceiverRuling) -> Option<NaiveDate> {
     let of_finding = deciding(&receiver.ruling).and_then(|finding| finding.date);
-    of_finding.or_else(|| least_counted(receiver).map(|(day, _)| judgement.days[day].date))
+    of_finding.or_else(|| worst_counted(judgement, receiver).map(|(day, _)| judgement.days[day].date))
+}
+
+/// The time from which the loss of all sun is significant, by the finding's criterion.
+pub(super) fn no_sun_left_limit(judgement: &Judgement, finding: &Finding) -> Option<i64> {
+    let criterion = judgement.rule.criteria.get(finding.criterion)?;
+    if let Demand::Report { no_sun_left_secs } = criterion.demand { no_sun_left_secs } else { None }
 }
 
 /// The local time at a second since 1970.

@@ -2,7 +2,7 @@
 
 use super::super::names::plain;
 use super::super::probe::{clock, triple};
-use super::numbers::{component_name, date_of, deciding, excuse, least_counted};
+use super::numbers::{component_name, date_of, deciding, excuse, worst_counted};
 use crate::judgement::{GroupRuling, Judgement, ReceiverRuling, Taker};
 use crate::rules::{Finding, Quantity, Verdict};
 use crate::site::JudgedSite;
@@ -34,7 +34,7 @@ pub struct ReceiverRow {
 pub fn receiver_row(judgement: &Judgement, receiver: &ReceiverRuling) -> ReceiverRow {
     let finding = deciding(&receiver.ruling);
     let told = |quantity: Option<Quantity>| quantity.map_or_else(|| "-".to_owned(), |it| said(it, receiver));
-    let counted = || least_counted(receiver).map(|(_, secs)| Quantity::Secs(secs));
+    let counted = || worst_counted(judgement, receiver).map(|(_, secs)| Quantity::Secs(secs));
     let of_finding = |of: fn(&Finding) -> Option<Quantity>| told(finding.and_then(of));
     let margin = finding.and_then(|finding| finding.margin.map(|margin| margin_said(finding, margin, receiver)));
     ReceiverRow {

@@ -17,6 +17,8 @@ pub(in crate::export) struct RuleReport<'a> {
     confidence_means: &'static str,
     sources: &'a [String],
     assumes: &'a [String],
+    /// `built-in`, or the file that was read.
+    from: &'a str,
 }
 
 /// What is chosen in a rule.
@@ -101,6 +103,7 @@ pub(in crate::export) fn rule_report(source: &RuleSource) -> RuleReport<'_> {
         confidence_means: source.confidence.meaning(),
         sources: &source.sources,
         assumes: &source.assumes,
+        from: source.file.as_deref().unwrap_or("built-in"),
     }
 }
 

@@ -1,12 +1,13 @@
 //! A judgement as text for people.
 
 use super::super::names::plain;
-use super::numbers::CHECK;
+use super::super::probe::clock;
+use super::numbers::{CHECK, no_sun_left_limit};
 use super::rows::{ReceiverRow, TakerRow, group_said, receiver_row, taker_row};
 use super::rule_report::clock_word;
 use crate::judgement::{ERROR_ODDS, Judgement, Taker};
 use crate::message::few;
-use crate::rules::{RuleReceiver, Verdict};
+use crate::rules::{Quantity, RuleReceiver, Verdict};
 use crate::site::JudgedSite;
 use std::fmt::Write;
 
@@ -21,6 +22,7 @@ pub fn table(judgement: &Judgement, site: &JudgedSite) -> String {
     let grade = judgement.grade.as_ref().map_or_else(String::new, |grade| format!(", grade {grade}"));
     let _ = writeln!(text, "{}{grade}: {}, {}", judgement.verdict, judgement.source.name, judgement.source.region);
     receivers(&mut text, judgement);
+    losses(&mut text, judgement);
     groups(&mut text, judgement);
     takers(&mut text, judgement, site);
     rests_on(&mut text, judgement, site);
@@ -46,6 +48,25 @@ fn receivers(text: &mut String, judgement: &Judgement) {
     }
 }
 
+/// On which days all sun is gone that was there before, if the rule asks for that.
+fn losses(text: &mut String, judgement: &Judgement) {
+    for receiver in &judgement.receivers {
+        for finding in &receiver.ruling.findings {
+            let lost = finding.no_sun_left_secs.zip(no_sun_left_limit(judgement, finding)).zip(finding.date);
+            let Some(((secs, limit), date)) = lost.filter(|((secs, _), _)| *secs > 0) else { continue };
+            let weight = if secs >= limit { "significant" } else { "not significant" };
+            // Writing to a String cannot fail.
+            let _ = writeln!(
+                text,
+                "  {}: on {date} all sun that was there before is gone for up to {}: {weight} by the limit of {}",
+                plain(&receiver.name),
+                clock(secs),
+                clock(limit)
+            );
+        }
+    }
+}
+
 fn groups(text: &mut String, judgement: &Judgement) {
     if judgement.groups.is_empty() {
         return;
@@ -56,9 +77,8 @@ fn groups(text: &mut String, judgement: &Judgement) {
         // Writing to a String cannot fail.
         let _ = writeln!(
             text,
-            "  {} {}{of_dwelling}: {}{}",
-            group.kind,
-            plain(&group.name),
+            "  {}{of_dwelling}: {}{}",
+            format!("{} {}", group.kind, plain(&group.name)).trim_end(),
             group.verdict,
             group_said(group)
         );
@@ -70,7 +90,10 @@ fn takers(text: &mut String, judgement: &Judgement, site: &JudgedSite) {
     if taken().next().is_none() {
         return;
     }
-    text.push_str("\nWho takes the sun on that day, alone and with others:\n");
+    let has_areas = taken().any(|receiver| receiver.area.is_some());
+    let mean = if has_areas { " (of areas the mean over points that do not keep the rule)" } else { "" };
+    // Writing to a String cannot fail.
+    let _ = writeln!(text, "\nWho takes the sun on that day, alone and with others{mean}:");
     for receiver in taken() {
         let of = |taker: &Taker| {
             let TakerRow { name, alone, with_others } = taker_row(site, taker);
@@ -81,6 +104,37 @@ fn takers(text: &mut String, judgement: &Judgement, site: &JudgedSite) {
         named.extend((more > 0).then(|| format!("{more} more")));
         // Writing to a String cannot fail.
         let _ = writeln!(text, "  {}: {}", plain(&receiver.name), named.join(", "));
+    }
+}
+
+/// How exact the numbers are.
+fn exactness(text: &mut String, judgement: &Judgement) {
+    // Writing to a String cannot fail.
+    let is_of_areas = matches!(judgement.rule.receiver, RuleReceiver::Area { .. });
+    let areas = || judgement.receivers.iter().filter_map(|receiver| receiver.area).filter(|_| is_of_areas);
+    if let Some(apart_m) = areas().filter_map(|area| area.apart_m).max_by(f64::total_cmp) {
+        let _ = writeln!(
+            text,
+            "new shadow on areas is looked for at points up to {apart_m:.1} m apart: narrower shadow may lie between them"
+        );
+    }
+    if let Some(error) = areas().filter_map(|area| area.error_m2_secs).max_by(f64::total_cmp) {
+        let _ = writeln!(text, "area times time is known to about ±{:.0} m² h", error / 3600.0);
+    }
+    let of_parts = judgement
+        .receivers
+        .iter()
+        .filter(|receiver| receiver.ruling.findings.iter().any(|finding| matches!(finding.value, Quantity::AreaM2(_))));
+    let worst =
+        of_parts.filter_map(|receiver| receiver.area).filter(|_| is_of_areas).map(|area| area.error_m2 / area.m2);
+    if let Some(error) = worst.max_by(f64::total_cmp) {
+        let (percent, areas) = (100.0 * error, 1.0 / ERROR_ODDS);
+        let _ = writeln!(
+            text,
+            "parts of areas are known to ±{percent:.2} % of the area (farther off once in {areas:.0e} areas); spells to the second"
+        );
+    } else {
+        let _ = writeln!(text, "spells to the second");
     }
 }
 
@@ -96,6 +150,9 @@ fn rests_on(text: &mut String, judgement: &Judgement, site: &JudgedSite) {
     };
     // Writing to a String cannot fail.
     let _ = writeln!(text, "\n{} ({}), {}: {}", source.id, source.kind, source.edition, source.sources.join(", "));
+    if let Some(file) = &source.file {
+        let _ = writeln!(text, "the rule was read from {file}");
+    }
     let _ = writeln!(text, "known as {}: {}", source.confidence, source.confidence.meaning());
     if !options.is_empty() {
         let _ = writeln!(text, "options: {}", options.join(", "));
@@ -106,18 +163,7 @@ fn rests_on(text: &mut String, judgement: &Judgement, site: &JudgedSite) {
     let _ = writeln!(text, "judged: {days}; {} clock", clock_word(judgement.rule.clock.clock));
     let refraction = if site.refraction { "with" } else { "without" };
     let _ = writeln!(text, "the sun {refraction} the air's refraction; ground at {}", site.now.ground.said());
-    let is_of_areas = matches!(judgement.rule.receiver, RuleReceiver::Area { .. });
-    let areas = judgement.receivers.iter().filter_map(|receiver| receiver.area).filter(|_| is_of_areas);
-    let worst = areas.map(|area| area.error_m2 / area.m2);
-    if let Some(error) = worst.max_by(f64::total_cmp) {
-        let (percent, areas) = (100.0 * error, 1.0 / ERROR_ODDS);
-        let _ = writeln!(
-            text,
-            "parts of areas are known to ±{percent:.2} % of the area (farther off once in {areas:.0e} areas); spells to the second"
-        );
-    } else {
-        let _ = writeln!(text, "spells to the second");
-    }
+    exactness(text, judgement);
     let failing: Vec<String> = judgement
         .receivers
         .iter()

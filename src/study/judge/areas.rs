@@ -35,6 +35,13 @@ const MOST_POINTS: usize = 40_000;
 const GOOD_LOAD: f64 = 0.005;
 const MOST_POINTS_OF_SUMS: usize = 1500;
 
+/// A point has less sun than before if it has lost more than this; the ends of spells are rounded to seconds.
+const NOISE_SECS: f64 = 1.0;
+
+/// New shadow on an area is looked for at points so far apart, metres, or farther if there were more than about so many.
+const LEAST_APART_M: f64 = 2.0;
+const POINTS_OF_NEW_SHADOW: f64 = 20_000.0;
+
 /// What a rule asks of an area.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum AreaQuestion {
@@ -62,9 +69,7 @@ struct AreaWork<'w> {
     judging: &'w RuleOnSite<'w>,
     place: AreaPlace<'w>,
     samples: Samples,
-    m2: f64,
-    /// What is too narrow to count.
-    narrow_m2: f64,
+    size: AreaSize,
 }
 
 /// Judges one area.
@@ -77,10 +82,26 @@ pub(super) fn area(
     let counted = CountedParts::of(&judging.rule.receiver, area);
     let (parts, m2) = (&counted.triangles, counted.m2());
     let question = question(judging);
-    let across = if question == AreaQuestion::Load { SIDES_ACROSS_OF_SUMS } else { SIDES_ACROSS };
-    let samples = Samples::new(parts, (m2.sqrt() / across).max(1e-3));
+    let longest_m = match question {
+        AreaQuestion::Load => m2.sqrt() / SIDES_ACROSS_OF_SUMS,
+        AreaQuestion::Part | AreaQuestion::Worst => m2.sqrt() / SIDES_ACROSS,
+        // a slender shadow must not pass between the points; a triangle has about a third of its longest side's square
+        AreaQuestion::NewShadow => {
+            (m2 * 3.0 / POINTS_OF_NEW_SHADOW).sqrt().max(LEAST_APART_M).min(m2.sqrt() / SIDES_ACROSS)
+        }
+    }
+    .max(1e-3);
+    let samples = Samples::new(parts, longest_m);
     let place = AreaPlace::new(judging, states, &area.surface, parts);
-    let work = AreaWork { judging, place, samples, m2, narrow_m2: counted.narrow_m2 };
+    let size = AreaSize {
+        m2,
+        narrow_m2: counted.narrow_m2,
+        points: 0,
+        error_m2: 0.0,
+        error_m2_secs: None,
+        apart_m: (question == AreaQuestion::NewShadow).then_some(longest_m),
+    };
+    let work = AreaWork { judging, place, samples, size };
     let mut answer = match question {
         AreaQuestion::Part => work.part(steps)?,
         AreaQuestion::Load => work.load(steps)?,
@@ -123,15 +144,19 @@ impl AreaWork<'_> {
     }
 
     fn part(mut self, steps: &mut Steps<'_, '_>) -> Result<AreaAnswer, StudyError> {
-        let (judging, m2, asked) = (self.judging, self.m2, self.asked());
+        let (judging, m2, asked) = (self.judging, self.size.m2, self.asked());
         let states = if judging.before.is_some() { 2 } else { 1 };
         let value = |spot: &AreaSpot| -> Result<Vec<f64>, SunError> {
             let light = self.place.light(spot)?.counted();
             Ok(margins(judging, &light, &asked))
         };
-        let ruling = |sums: &AreaSums| judging.rule.judge_parts(m2, &lights(judging, (&asked, states), m2, sums));
-        let is_decided =
-            |sums: &AreaSums| Ok(ruling(sums)?.findings.iter().all(|finding| finding.verdict != Verdict::Close));
+        let ruling = |sums: &AreaSums, has_less: &[bool]| {
+            judging.rule.judge_parts(m2, &lights(judging, (&asked, states), m2, (sums, has_less)))
+        };
+        let none_has_less = vec![false; asked.len() * states];
+        let is_decided = |sums: &AreaSums| {
+            Ok(ruling(sums, &none_has_less)?.findings.iter().all(|finding| finding.verdict != Verdict::Close))
+        };
         let parts = PartsAsked {
             numbers: asked.len() * states,
             good_m2: GOOD_SHARE * m2,
@@ -139,7 +164,12 @@ impl AreaWork<'_> {
             is_decided: &is_decided,
         };
         let sums = self.samples.parts(&parts, &value, steps)?;
-        let ruling = ruling(&sums)?;
+        let has_less = |at: usize| {
+            let less = |values: &Vec<f64>| values.get(at + 1).is_some_and(|before| values[at] < before - NOISE_SECS);
+            states == 2 && at % 2 == 0 && self.samples.values.iter().any(less)
+        };
+        let has_less: Vec<bool> = (0..asked.len() * states).map(has_less).collect();
+        let ruling = ruling(&sums, &has_less)?;
         let error_m2 = sums.errors.iter().copied().fold(0.0, f64::max);
         let deciding = ruling.deciding.map(|at| &ruling.findings[at]);
         let field = deciding.and_then(|finding| {
@@ -185,12 +215,7 @@ impl AreaWork<'_> {
             name: String::new(),
             kind: JudgedThing::Area,
             ruling,
-            area: Some(AreaSize {
-                m2: self.m2,
-                narrow_m2: self.narrow_m2,
-                points: self.samples.values.len(),
-                error_m2,
-            }),
+            area: Some(AreaSize { points: self.samples.values.len(), error_m2, ..self.size }),
             points: spot.iter().map(|spot| self.place.judged_now(spot).point).collect(),
             normal: spot.and_then(|spot| spot.normal),
             room: None,
@@ -216,18 +241,22 @@ impl AreaWork<'_> {
             Ok(found)
         };
         let open: i64 = days.iter().map(|day| total_secs(&day.windows)).sum();
-        let enough = 1e-6 * self.m2 * open as f64;
+        let enough = 1e-6 * self.size.m2 * open as f64;
         let allowed = |sum: f64| (GOOD_LOAD * sum).max(enough);
         self.samples.refine(&value, (&allowed, MOST_POINTS_OF_SUMS), steps)?;
         let sums = self.samples.sums(days.len() + 1);
         let each_error = sums.errors[0] / days.len().max(1) as f64;
         let of = |(at, day)| ShadowLoad { day, m2_secs: sums.sums[at + 1], error_m2_secs: each_error };
         let loads: Vec<ShadowLoad<'_>> = days.iter().enumerate().map(of).collect();
-        let ruling = judging.rule.judge_load(self.m2, &loads)?;
+        let ruling = judging.rule.judge_load(self.size.m2, &loads)?;
         let most = self.samples.values.iter().enumerate().max_by(|one, other| one.1[0].total_cmp(&other.1[0]));
         let spot = most.map(|(spot, _)| self.samples.spots[spot]);
         let light = spot.map(|spot| self.place.light(&spot)).transpose()?;
-        Ok(self.told(ruling, 0.0, (spot, light), Vec::new()))
+        self.size.error_m2_secs = Some(sums.errors[0]);
+        // takers are sought where new shadow lies
+        self.samples.values.iter_mut().for_each(|values| values[0] = -values[0]);
+        let shaded = if ruling.verdict == Verdict::Pass { Vec::new() } else { self.some_below(0)? };
+        Ok(self.told(ruling, 0.0, (spot, light), shaded))
     }
 
     fn new_shadow(mut self, steps: &mut Steps<'_, '_>) -> Result<AreaAnswer, StudyError> {
@@ -298,14 +327,14 @@ fn lights<'d>(
     judging: &RuleOnSite<'d>,
     (asked, states): (&[(usize, usize)], usize),
     m2: f64,
-    sums: &AreaSums,
+    (sums, has_less): (&AreaSums, &[bool]),
 ) -> Vec<AreaLight<'d>> {
     let of_day = |(day, of): (usize, &'d RuleDay)| {
         let met = |number: usize| {
             let at = asked.iter().position(|one| *one == (day, number))? * states;
             let before_m2 = (states == 2).then(|| sums.sums[at + 1].min(m2));
             let error_m2 = sums.errors[at..at + states].iter().copied().fold(0.0, f64::max);
-            Some(PartMet { now_m2: sums.sums[at].min(m2), before_m2, error_m2 })
+            Some(PartMet { now_m2: sums.sums[at].min(m2), before_m2, error_m2, has_less: has_less[at] })
         };
         AreaLight { day: of, met: (0..judging.rule.criteria.len()).map(met).collect() }
     };

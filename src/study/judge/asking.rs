@@ -5,6 +5,7 @@ use super::days::{JudgedDays, hulls};
 use super::groups::{WindowRulings, groups, of_groups};
 use super::judging::{RuleOnSite, Steps};
 use super::needs;
+use super::on_plot::casting_on_plot;
 use super::receivers::{JudgedReceivers, found};
 use super::whole::{day_verdicts, grade, notes, with_takers};
 use crate::judgement::Judgement;
@@ -23,6 +24,8 @@ pub fn judge(
 ) -> Result<Judgement, StudyError> {
     note_models(&site.notes, on_event)?;
     needs::check(rule, site)?;
+    let on_plot = casting_on_plot(site, rule);
+    let (site, neighbours) = on_plot.as_ref().map_or((site, 0), |(site, left_out)| (site, *left_out));
     let calendar = rule.calendar(&site.place, site.year)?;
     let hulls = hulls(&site.place, &calendar)?;
     let days = JudgedDays::new(site, rule.cuts, &calendar, &hulls)?;
@@ -51,7 +54,7 @@ pub fn judge(
         day_verdicts: day_verdicts(rule, &calendar, &receivers, &groups),
         verdict,
         grade: grade(rule, verdict, &receivers, &groups),
-        notes: notes(&judging, &receivers),
+        notes: notes(&judging, &receivers, neighbours),
         receivers,
         groups,
         days: calendar,

@@ -15,6 +15,7 @@ mod judging;
 mod kept;
 mod kept_demand;
 mod needs;
+mod on_plot;
 mod open_spaces;
 mod parts;
 mod point_light;

@@ -126,7 +126,7 @@ fn takers(
 }
 
 /// Notes on how the site was judged.
-pub(super) fn notes(judging: &RuleOnSite<'_>, receivers: &[ReceiverRuling]) -> Vec<Message> {
+pub(super) fn notes(judging: &RuleOnSite<'_>, receivers: &[ReceiverRuling], neighbours: usize) -> Vec<Message> {
     let mut notes: Vec<String> = Vec::new();
     let site = judging.site;
     match &judging.rule.receiver {
@@ -157,11 +157,11 @@ pub(super) fn notes(judging: &RuleOnSite<'_>, receivers: &[ReceiverRuling]) -> V
                 );
             }
         }
-        RuleReceiver::Lines { .. } => notes.push(
-            "the shadow of all components that cast is counted; if the rule is about the building alone, leave the others \
-             out of those that cast"
-                .to_owned(),
-        ),
+        RuleReceiver::Lines { .. } if neighbours > 0 => {
+            let of = if neighbours == 1 { "1 component".to_owned() } else { format!("{neighbours} components") };
+            notes.push(format!("only what stands on the plot counts: the shadow of {of} beside it is left out"));
+        }
+        RuleReceiver::Lines { .. } => {}
         RuleReceiver::Facade => {}
     }
     if judging.rule.compare == Some(CompareWith::Reference) {

@@ -116,7 +116,12 @@ fn sheet(map: &EnvelopeMap, bands: &[HeightBand], step_mm: u64, fit: Fit) -> Blo
         stroke(block, &paths(std::slice::from_ref(&border)), 6.0, ACCENT, "the plot");
     });
     group(&mut block, "points", |block| {
-        for point in map.points {
+        // what lies beyond the sheet is only counted
+        let is_shown = |point: &&glam::DVec3| {
+            let grid = &map.grid;
+            (grid.west..=grid.east()).contains(&point.x) && (grid.south()..=grid.north).contains(&point.y)
+        };
+        for point in map.points.iter().filter(is_shown) {
             let [x, y] = on_page(point.x, point.y);
             block.ring(x, y, 8.0, 4.0, INK);
         }
