@@ -35,7 +35,10 @@ fn plain(mesh: &Mesh) -> BTreeMap<[u32; 2], Vec<(u32, i32)>> {
     found
 }
 
-fn edges(mesh: &Mesh) -> Vec<([u32; 2], Vec<(u32, i32)>)> {
+/// An edge, and for each face at it the index and the direction.
+type FacedEdge = ([u32; 2], Vec<(u32, i32)>);
+
+fn edges(mesh: &Mesh) -> Vec<FacedEdge> {
     let faces = |edge: usize| mesh.faces_at(edge).iter().map(|at| (at.face(), at.direction())).collect();
     mesh.edges.iter().enumerate().map(|(edge, ends)| (*ends, faces(edge))).collect()
 }

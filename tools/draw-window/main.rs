@@ -73,6 +73,7 @@ fn open(name: &str, theme: Theme) -> Result<Harness<'static, App>> {
     let path = sample(name);
     let mut fault = None;
     let mut window = Harness::<App>::builder()
+        .allow_missing_glyphs()
         .with_size([1280.0, 720.0])
         .with_theme(theme)
         .wgpu_setup(desktop::setup())

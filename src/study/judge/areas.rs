@@ -166,7 +166,7 @@ impl AreaWork<'_> {
         let sums = self.samples.parts(&parts, &value, steps)?;
         let has_less = |at: usize| {
             let less = |values: &Vec<f64>| values.get(at + 1).is_some_and(|before| values[at] < before - NOISE_SECS);
-            states == 2 && at % 2 == 0 && self.samples.values.iter().any(less)
+            states == 2 && at.is_multiple_of(2) && self.samples.values.iter().any(less)
         };
         let has_less: Vec<bool> = (0..asked.len() * states).map(has_less).collect();
         let ruling = ruling(&sums, &has_less)?;
