@@ -369,6 +369,7 @@ impl Method {
     }
 
     /// The technique that draws the sun as a point or, on request, as a disc.
+    #[cfg(feature = "desktop")]
     pub(crate) fn of_discs() -> Option<Method> {
         TABLE.iter().find(|row| row.offers_disc()).map(|row| row.method)
     }
@@ -404,6 +405,7 @@ impl MethodRow {
     }
 
     /// Whether the sun is a point for it unless a disc is requested.
+    #[cfg(feature = "desktop")]
     pub(crate) fn offers_disc(&self) -> bool {
         self.uses(Setting::SunSamples) && self.defaults.sun_samples.is_none()
     }

@@ -19,6 +19,7 @@ mod rooms;
 mod windows;
 
 pub use days::study_days;
+#[cfg(feature = "desktop")]
 pub(crate) use load::judged_with_models;
 pub use load::load_judged;
 pub use request::{AreaSurface, JudgedArea, JudgedFacade, JudgedPlot, JudgedSite, JudgedState, JudgedWindow, PlotSide};
