@@ -12,7 +12,7 @@
 //! hours do not need it.
 //!
 //! Where it fails: a texel has the value of its centre; and rays cost less with many tiny patches, and towards the sun
-//! ([`Choice::Auto`], [`rectangles`]).
+//! ([`Choice::Auto`], `rectangles`).
 
 mod between;
 #[cfg(feature = "test-hooks")]
