@@ -30,18 +30,6 @@ fn main() -> Result<()> {
     answer(&mut window, &sample("headquarters/without.toml"))?;
     keep(&mut window, "change")?;
 
-    let mut window = open("headquarters/judged.toml", Theme::Light)?;
-    for section in ["Shadows", "Hours of shadow", "Place", "Judge by a rule"] {
-        click(&mut window, section)?;
-    }
-    choose(&mut window, "Rule", "BRE BR 209, sun on the ground, United Kingdom")?;
-    window.key_press_modifiers(Modifiers::COMMAND, Key::J);
-    window.step();
-    settle(&mut window)?;
-    let line = window.query_by_label_contains("flats, northern lawn fails").ok_or_else(|| anyhow!("no verdict"))?;
-    line.click_accesskit();
-    keep(&mut window, "judged")?;
-
     let mut window = open("tower", Theme::Light)?;
     choose(&mut window, "Technique", "stencil")?;
     click(&mut window, "Volumes")?;
