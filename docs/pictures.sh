@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Draws the pictures of the documentation again: drawings by the command itself (GNOMON=…, or built here), shrunk for the
-# screen with ImageMagick to half the size of the sheet and 256 colours; comparison sheets by an example.
+# screen with ImageMagick to half the size of the sheet and 256 colours; comparison sheets and the window's
+# pictures by two examples.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -80,5 +81,12 @@ profile docs/pictures/hillside-profile.png hillside
 # The comparison sheets after Brabec and Seidel and after Chan's thesis. The milliseconds in some of their
 # captions are measured as they are drawn.
 cargo run --release --example draw-figures
+
+# The window's pictures, at their own size.
+cargo run --release --example draw-window
+for picture in docs/pictures/window-*.png; do
+    "$shrinker" "$picture" -strip -dither None -colors 256 "PNG8:$drawn/window.png"
+    mv "$drawn/window.png" "$picture"
+done
 
 ls -l docs/pictures/*.png sites/*/picture.png

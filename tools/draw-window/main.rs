@@ -30,6 +30,18 @@ fn main() -> Result<()> {
     answer(&mut window, &sample("headquarters/without.toml"))?;
     keep(&mut window, "change")?;
 
+    let mut window = open("headquarters/judged.toml", Theme::Light)?;
+    for section in ["Shadows", "Hours of shadow", "Place", "Judge by a rule"] {
+        click(&mut window, section)?;
+    }
+    choose(&mut window, "Rule", "BRE BR 209, sun on the ground, United Kingdom")?;
+    window.key_press_modifiers(Modifiers::COMMAND, Key::J);
+    window.step();
+    settle(&mut window)?;
+    let line = window.query_by_label_contains("flats, northern lawn fails").ok_or_else(|| anyhow!("no verdict"))?;
+    line.click_accesskit();
+    keep(&mut window, "judged")?;
+
     let mut window = open("tower", Theme::Light)?;
     choose(&mut window, "Technique", "stencil")?;
     click(&mut window, "Volumes")?;
@@ -117,9 +129,11 @@ fn answer(window: &mut Harness<'_, App>, path: &Path) -> Result<()> {
 
 fn choose(window: &mut Harness<'_, App>, list: &str, entry: &str) -> Result<()> {
     window.get_by_role_and_label(Role::ComboBox, list).click();
+    settle(window)?;
+    // the entry may lie below the part of a long list that is seen
+    window.query_by_label(entry).ok_or_else(|| anyhow!("there is no {entry}"))?.click_accesskit();
     window.step();
-    window.step();
-    click(window, entry)
+    settle(window)
 }
 
 fn write(window: &mut Harness<'_, App>, label: &str, text: &str) -> Result<()> {
