@@ -351,6 +351,16 @@ fn rule_beside_the_site_is_listed() {
     judge(&mut harness);
     harness.get_by_label("Our own rule, United Kingdom");
     harness.get_by_label("The site fails");
+    // a rule whose file changes is another one, once it is read again
+    let changed = std::fs::read_to_string(folder.path().join("own.toml")).unwrap().replace("2h", "3h");
+    std::fs::write(folder.path().join("own.toml"), changed).unwrap();
+    harness.get_by_role_and_label(egui::Role::ComboBox, "Rule").click_accesskit();
+    settle(&mut harness);
+    harness.get_by_role_and_label(egui::Role::Button, "Our own rule, United Kingdom").click_accesskit();
+    settle(&mut harness);
+    harness.get_by_label("The request has changed since.");
+    judge(&mut harness);
+    assert!(harness.query_by_label("The request has changed since.").is_none());
     // a changed request is told from what was judged
     click(&mut harness, "Remove area 2");
     settle(&mut harness);

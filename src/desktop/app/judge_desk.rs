@@ -85,6 +85,9 @@ impl JudgeDesk {
         self.table =
             JudgedTable { sort: self.table.sort, is_reversed: self.table.is_reversed, ..JudgedTable::default() };
         self.table.order = result.sorted(self.table.sort, self.table.is_reversed);
+        // its file may be newer than the list
+        let listed = self.known.iter_mut().find(|(name, _)| *name == result.choice.name);
+        listed.into_iter().for_each(|(_, rule)| *rule = Ok(result.rule.clone()));
         self.judged = Some(Arc::new(result));
         (self.shows, self.tool) = (true, None);
     }

@@ -1,8 +1,7 @@
 //! What is judged of the open site: lists of its areas, windows and plot, and the tools that draw them.
 
 use crate::desktop::app::state::App;
-use crate::desktop::parts::fields::TypedText;
-use crate::desktop::parts::fields::refused;
+use crate::desktop::parts::fields::{TypedText, refused};
 use crate::desktop::state::eye::Stand;
 use crate::desktop::state::judging::JudgeTool;
 use crate::message::few;

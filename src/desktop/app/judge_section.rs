@@ -54,10 +54,10 @@ fn rules(app: &mut App, ui: &mut Ui) -> bool {
         lists = response.response.clicked();
         response.response.labelled_by(label);
     });
-    match choice.of(known).cloned() {
+    match choice.of(known) {
         Some(Ok(rule)) => {
-            ui.add(egui::Label::new(egui::RichText::new(known_as(&rule)).weak()).wrap());
-            rule.options.iter().for_each(|option| option_row(ui, &rule, option, choice));
+            ui.add(egui::Label::new(egui::RichText::new(known_as(rule)).weak()).wrap());
+            rule.options.iter().for_each(|option| option_row(ui, rule, option, choice));
         }
         Some(Err(error)) => refused(ui, &error.to_string()),
         None if !choice.name.is_empty() && is_listed => {
@@ -173,7 +173,7 @@ fn results(app: &mut App, ui: &mut Ui) {
     let Some(open) = &mut app.open else { return };
     let desk = &mut open.judge;
     let Some(judged) = &desk.judged else { return };
-    if !judged.is_asked(&open.project, &desk.choice) {
+    if !judged.is_asked(&open.project, &desk.choice, &desk.known) {
         ui.weak("The request has changed since: judge it again.");
     }
     ui.checkbox(&mut desk.shows, "Show the verdicts");

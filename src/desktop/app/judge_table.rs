@@ -78,7 +78,8 @@ fn heading(app: &mut App, ui: &mut Ui, judged: &JudgedResult) {
     }
     ui.add(egui::Label::new(RichText::new(CHECK).weak().small()).wrap());
     let (mut exports, mut closes) = (false, false);
-    let is_asked = app.open.as_ref().is_some_and(|open| judged.is_asked(&open.project, &open.judge.choice));
+    let is_asked =
+        app.open.as_ref().is_some_and(|open| judged.is_asked(&open.project, &open.judge.choice, &open.judge.known));
     ui.horizontal(|ui| {
         let hover = "JSON with everything, and the table as CSV, into a folder";
         exports = ui.button("Export…").on_hover_text(hover).clicked();

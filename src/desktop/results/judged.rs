@@ -7,7 +7,7 @@ use crate::desktop::state::judging::RuleChoice;
 use crate::desktop::state::project::Project;
 use crate::export::judgement::{group_said, receiver_row, taker_row};
 use crate::judgement::{GroupKind, GroupRuling, Judgement, ReceiverRuling};
-use crate::rules::{Quantity, Ruling, Verdict};
+use crate::rules::{KnownRule, Quantity, Rule, RuleError, Ruling, Verdict};
 use crate::site::file::SiteFile;
 use crate::site::{JudgedSite, Site};
 use std::cmp::Ordering;
@@ -19,8 +19,9 @@ pub(in crate::desktop) struct JudgedResult {
     pub(in crate::desktop) number: u64,
     pub(in crate::desktop) site: JudgedSite,
     pub(in crate::desktop) answer: JudgeAnswer,
-    /// The rule that was asked for.
+    /// The rule that was asked for, as it was read.
     pub(in crate::desktop) choice: RuleChoice,
+    pub(in crate::desktop) rule: Rule,
     /// The site as it was written.
     pub(in crate::desktop) written: SiteFile,
     /// The hash of its models.
@@ -123,18 +124,21 @@ impl JudgedResult {
     }
 
     /// Whether it is what would be judged now.
-    pub(in crate::desktop) fn is_asked(&self, project: &Project, choice: &RuleChoice) -> bool {
+    pub(in crate::desktop) fn is_asked(&self, project: &Project, choice: &RuleChoice, known: &[KnownRule]) -> bool {
         let (then, now) = (&self.written, &project.written.site);
         let same_models = then.model == now.model && self.mark == project.models.mark();
         let same_place = then.ground == now.ground && then.place == now.place;
         // only the year of the study counts
         let days = |site: &SiteFile| (site.study.date.clone(), site.study.dates.clone(), site.study.from.clone());
+        // a file of that name may have changed
+        let is_same = |rule: &Result<Rule, RuleError>| rule.as_ref().is_ok_and(|rule| rule.text == self.rule.text);
+        let same_rule = self.choice == *choice && choice.of(known).is_some_and(is_same);
         let same_judged = then.area == now.area
             && then.window == now.window
             && then.facade == now.facade
             && then.plot == now.plot
             && then.before == now.before;
-        same_models && same_place && same_judged && days(then) == days(now) && self.choice == *choice
+        same_models && same_place && same_judged && days(then) == days(now) && same_rule
     }
 
     /// The receivers of a line: its own, or those of a group and of the groups in it.

@@ -31,14 +31,14 @@ pub(in crate::desktop) fn judge(
     let reading = project.reading.clone();
     let words = words::of_panel(written.site.model.len());
     Work::start_in(context, words, move |on_event| {
-        let known = rule_for_site(&choice.name, &written.folder)?;
-        let rule = known.resolve(&choice.pairs())?;
+        let rule = rule_for_site(&choice.name, &written.folder)?;
+        let resolved = rule.resolve(&choice.pairs())?;
         let site = settle(read(&written, models, &Overrides { reading, ..Overrides::default() })?)?;
-        let request = JudgeRequest { source: &known.source, rule: &rule, table: None };
+        let request = JudgeRequest { source: &rule.source, rule: &resolved, table: None };
         let answer = deliver(&site, request, Sink::Memory, on_event)?;
         let lines = JudgedResult::lines_of(&site, &answer.judgement);
         let shapes = VerdictShapes::of_receivers(&site, &answer.judgement);
-        Ok(JudgedResult { number, site, answer, choice, written: written.site, mark, lines, shapes })
+        Ok(JudgedResult { number, site, answer, choice, rule, written: written.site, mark, lines, shapes })
     })
 }
 
