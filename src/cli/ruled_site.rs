@@ -3,9 +3,11 @@
 use super::arguments::SiteArgs;
 use super::model::ModelArgs;
 use super::wrong_use::WrongUse;
-use crate::rules::{ResolvedRule, RuleError, RuleSource, rule_for_site};
+use crate::message::Message;
+use crate::rules::{ResolvedRule, Rule, RuleError, RuleSource, rule_for_site};
 use crate::site::{JudgedSite, Overrides, SiteError, load_judged};
-use crate::study::settle;
+use crate::study::judge::with_needs;
+use crate::study::{StudyError, settle};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -46,17 +48,29 @@ pub(super) struct ReadSite {
 impl RuledSiteArgs {
     /// Reads the rule first, as that is quick, and then the site with its models.
     pub(super) fn read(&self) -> anyhow::Result<(ChosenRule, ReadSite)> {
-        let rule = self.judged.rule(&self.rule, &self.set)?;
-        Ok((rule, self.judged.read(Some(&self.rule), &self.judged.overrides()?)?))
+        let (written, given) = (self.judged.written(&self.rule)?, chosen(&self.set)?);
+        let read = || self.judged.read(Some(&self.rule), &self.judged.overrides()?);
+        match written.resolve(&given) {
+            Ok(rule) => Ok((ChosenRule { source: written.source, rule }, read()?)),
+            Err(error @ RuleError::Unsaid { .. }) => {
+                Err(unsaid(with_needs(error, &written, &given, &read()?.site)).into())
+            }
+            Err(error) => Err(wrong_use(error).into()),
+        }
     }
 }
 
 impl JudgedSiteArgs {
     /// A rule for this site, from its folder or built in.
     pub(super) fn rule(&self, name: &str, set: &[String]) -> anyhow::Result<ChosenRule> {
-        let written = rule_for_site(name, folder_of(self.site.path())).map_err(wrong_use)?;
+        let written = self.written(name)?;
         let rule = written.resolve(&chosen(set)?).map_err(wrong_use)?;
         Ok(ChosenRule { source: written.source, rule })
+    }
+
+    /// The same before its options are chosen.
+    fn written(&self, name: &str) -> Result<Rule, WrongUse> {
+        rule_for_site(name, folder_of(self.site.path())).map_err(wrong_use)
     }
 
     pub(super) fn path(&self) -> &Path {
@@ -101,6 +115,18 @@ fn chosen(set: &[String]) -> Result<Vec<(&str, &str)>, WrongUse> {
         chosen.push((name, value));
     }
     Ok(chosen)
+}
+
+/// The error of options that nobody chose, and of what the site lacks besides.
+fn unsaid(error: RuleError) -> StudyError {
+    const SET: &str = "say each option as --set NAME=VALUE";
+    match StudyError::from(error) {
+        StudyError::Rule(Message { what, hint }) => {
+            let first = if hint.is_empty() { SET.to_owned() } else { format!("{SET}, and ") };
+            StudyError::Rule(Message { what, hint: [first.into()].into_iter().chain(hint).collect() })
+        }
+        other => other,
+    }
 }
 
 fn wrong_use(error: RuleError) -> WrongUse {

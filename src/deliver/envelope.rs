@@ -248,13 +248,18 @@ fn days_said(site: &JudgedSite, demand: &SunDemand<'_>, days: &[RuleDay]) -> Str
     if window.is_empty() { dates(days) } else { format!("{}, {window}", dates(days)) }
 }
 
-/// `21 March 2026`, or the first and the last of several days.
+/// `21 March 2026`; a few days one by one, and of many the first and the last, in the order of the calendar.
 fn dates(days: &[RuleDay]) -> String {
-    let said = |date: NaiveDate| date.format("%-d %B %Y").to_string();
-    match days {
+    /// The most days that are said one by one.
+    const MOST: usize = 4;
+    let said = |date: &NaiveDate| date.format("%-d %B %Y").to_string();
+    let mut dates: Vec<NaiveDate> = days.iter().map(|day| day.date).collect();
+    dates.sort_unstable();
+    match dates.as_slice() {
         [] => "no day".to_owned(),
-        [one] => said(one.date),
-        [first, .., last] => format!("{} – {}, {} days", said(first.date), said(last.date), days.len()),
+        few if few.len() <= MOST => few.iter().map(said).collect::<Vec<_>>().join(", "),
+        [first, .., last] => format!("{} days, {} – {}", dates.len(), said(first), said(last)),
+        [one] => said(one),
     }
 }
 

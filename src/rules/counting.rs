@@ -45,6 +45,21 @@ words!(CountHow, [
     "area-time" => CountHow::AreaTime,
 ]);
 
+/// The unit in which areas times time are printed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum AreaUnit {
+    /// Square metres.
+    #[default]
+    SquareMetres,
+    /// Square feet, of 0.3048 m each way.
+    SquareFeet,
+}
+
+words!(AreaUnit, [
+    "m2" => AreaUnit::SquareMetres,
+    "ft2" => AreaUnit::SquareFeet,
+]);
+
 /// Short gaps that do not break a spell in two.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bridge {
@@ -67,6 +82,8 @@ pub struct Counting {
     pub bridge: Option<Bridge>,
     /// The seconds between the test times of [`CountHow::Instants`]; 0 with the others.
     pub step_secs: i64,
+    /// The unit in which areas times time are printed.
+    pub unit: AreaUnit,
 }
 
 /// Spells with the bridged gaps between them.
@@ -89,7 +106,7 @@ pub struct SpellCount {
 
 impl Counting {
     /// The keys that `[count]` may have.
-    pub(super) const KEYS: &[&str] = &["what", "how", "shortest", "bridge", "bridge_counts", "step"];
+    pub(super) const KEYS: &[&str] = &["what", "how", "shortest", "bridge", "bridge_counts", "step", "unit"];
 
     pub(super) fn read(table: TableReader) -> Result<Counting, RuleError> {
         let must = |key: &'static str| table.wrong(key, "it is required");
@@ -97,13 +114,18 @@ impl Counting {
         let counts = table.flag("bridge_counts")?;
         let how = table.word("how")?.ok_or_else(|| must("how"))?;
         let step_secs = table.secs("step")?;
+        let unit = table.word("unit")?;
         let counting = Counting {
             what: table.word("what")?.ok_or_else(|| must("what"))?,
             how,
             shortest_secs: table.secs("shortest")?.unwrap_or(0),
             bridge: bridge.map(|gap_secs| Bridge { gap_secs, counts }),
             step_secs: step_secs.unwrap_or(0),
+            unit: unit.unwrap_or_default(),
         };
+        if unit.is_some() && how != CountHow::AreaTime {
+            return Err(table.wrong("unit", "it is allowed only with how = \"area-time\""));
+        }
         if counts && bridge.is_none() {
             return Err(table.wrong(
                 "bridge_counts",

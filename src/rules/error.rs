@@ -56,12 +56,14 @@ pub enum RuleError {
         takes: String,
     },
     /// Options without a default that were not given a value, all of them.
-    #[error("rule {rule} has options without a default, and you must choose: {missing}")]
+    #[error("rule {rule} has options without a default, and you must choose: {missing}{}", also(needs))]
     Unsaid {
         /// The rule.
         rule: String,
         /// The options, each with its meaning and its values.
         missing: String,
+        /// What the site does not have and the rule needs, whatever is chosen; empty where no site is known yet.
+        needs: Vec<RuleNeed>,
     },
     /// A rule that is neither in the site's folder nor built in.
     #[error("there is no rule `{id}`; the nearest is `{nearest}`")]
@@ -109,6 +111,10 @@ impl RuleNeed {
     pub fn without_key(what: impl Into<String>) -> RuleNeed {
         RuleNeed { what: what.into(), said_at: None }
     }
+}
+
+fn also(needs: &[RuleNeed]) -> String {
+    if needs.is_empty() { String::new() } else { format!("; it also needs {}", listed(needs)) }
 }
 
 fn listed(needs: &[RuleNeed]) -> String {

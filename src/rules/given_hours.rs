@@ -1,7 +1,7 @@
 //! Hours of sun that are given without an authority's rule.
 
 use super::clock::{ClockRule, RuleClock};
-use super::counting::{CountHow, CountedTime, Counting};
+use super::counting::{AreaUnit, CountHow, CountedTime, Counting};
 use super::criterion::{Criterion, Demand, Extent};
 use super::cuts::SunCuts;
 use super::receiver::{RuleReceiver, WindowPoint};
@@ -49,6 +49,7 @@ impl ResolvedRule {
                 shortest_secs: 0,
                 bridge: None,
                 step_secs: 0,
+                unit: AreaUnit::default(),
             },
             compare: None,
             criteria: vec![Criterion {

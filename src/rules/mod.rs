@@ -30,7 +30,7 @@ mod weigh;
 mod window;
 
 pub use clock::{ClockRule, RuleClock};
-pub use counting::{Bridge, CountHow, CountedTime, Counting, Run, SpellCount};
+pub use counting::{AreaUnit, Bridge, CountHow, CountedTime, Counting, Run, SpellCount};
 pub use criterion::{Criterion, Demand, DwellingShare, Extent, RoomsNeeded, SunlessWhen};
 pub use cuts::{GrazingIn, SunCuts};
 pub use day_sun::DaySun;

@@ -165,24 +165,51 @@ impl Rule {
     /// An option that the rule does not have, a value that it does not allow, or an option without a default and
     /// without a value.
     pub fn resolve(&self, given: &[(&str, &str)]) -> Result<ResolvedRule, RuleError> {
+        let (choices, unsaid) = self.choices(given)?;
+        if !unsaid.is_empty() {
+            let said = |option: &&RuleOption| format!("`{}`, {} ({})", option.name, option.meaning, option.takes());
+            let missing = unsaid.iter().map(said).collect::<Vec<_>>().join("; ");
+            return Err(RuleError::Unsaid { rule: self.source.id.clone(), missing, needs: Vec::new() });
+        }
+        self.with(&choices)
+    }
+
+    /// Resolves the rule with every value of each option that has neither a default nor a given value, the others of
+    /// them at their first value: for what holds whatever is chosen.
+    ///
+    /// # Errors
+    /// As [`Rule::resolve`], except that all options may be left out.
+    pub fn resolve_open(&self, given: &[(&str, &str)]) -> Result<Vec<ResolvedRule>, RuleError> {
+        let (mut choices, unsaid) = self.choices(given)?;
+        choices.extend(unsaid.iter().map(|option| (option.name.clone(), option.samples()[0].clone())));
+        let mut open = vec![self.with(&choices)?];
+        for option in unsaid {
+            for value in &option.samples()[1..] {
+                let mut choices = choices.clone();
+                choices.insert(option.name.clone(), value.clone());
+                open.push(self.with(&choices)?);
+            }
+        }
+        Ok(open)
+    }
+
+    /// The values that are given or are defaults, and the options that have neither.
+    fn choices(&self, given: &[(&str, &str)]) -> Result<(Choices, Vec<&RuleOption>), RuleError> {
         let mut choices = Choices::new();
         for (name, text) in given {
             let option = self.option(name)?;
             choices.insert(option.name.clone(), option.value(&self.source.id, text)?);
         }
-        let mut missing = Vec::new();
+        let mut unsaid = Vec::new();
         for option in self.options.iter().filter(|option| !given.iter().any(|(name, _)| *name == option.name)) {
             match &option.default {
                 Some(default) => {
                     choices.insert(option.name.clone(), default.clone());
                 }
-                None => missing.push(format!("`{}`, {} ({})", option.name, option.meaning, option.takes())),
+                None => unsaid.push(option),
             }
         }
-        if !missing.is_empty() {
-            return Err(RuleError::Unsaid { rule: self.source.id.clone(), missing: missing.join("; ") });
-        }
-        self.with(&choices)
+        Ok((choices, unsaid))
     }
 
     fn option(&self, name: &str) -> Result<&RuleOption, RuleError> {

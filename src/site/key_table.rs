@@ -277,7 +277,7 @@ pub const SITE_KEYS: &[SiteKey] = &[
         .means("Its corners in their order, east and north of the place. Its border must not cross or touch itself."),
     key("area", "file", ValueType::Text, "file = \"areas.geojson\"")
         .default("as `polygon`")
-        .means("A GeoJSON file, relative to the site file, of whose polygons each is an area of its own, with its holes."),
+        .means("A GeoJSON file, relative to the site file, of whose polygons each is an area of its own, with its holes; its properties `name` and `dwelling` go before the keys."),
     key("area", "crs", ValueType::Text, "crs = \"EPSG:25832\"").default("as the file says").means(
         "The reference system of the file's coordinates, as `crs` under [[model]]. Coordinates of no map are metres east and \
          north of the place.",

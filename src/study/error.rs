@@ -114,7 +114,10 @@ plain_display!(StudyError);
 
 impl From<RuleError> for StudyError {
     fn from(error: RuleError) -> StudyError {
-        let hint = if let RuleError::Needs { needs, .. } = &error { to_add(needs) } else { Vec::new() };
+        let hint = match &error {
+            RuleError::Needs { needs, .. } | RuleError::Unsaid { needs, .. } => to_add(needs),
+            _ => Vec::new(),
+        };
         StudyError::Rule(Message { what: pieces![error.to_string()], hint })
     }
 }

@@ -3,6 +3,7 @@
 use super::{area, corner, endless_wall, judged, london, nothing, over_wall, secs, share, site, tried, value_secs};
 use crate::shared::dense::cuboid;
 use glam::{DVec3, dvec3};
+use gnomon::export::judgement::{csv, receiver_row};
 use gnomon::judgement::JudgedThing;
 use gnomon::rules::{Excuse, Quantity, Verdict, total_secs};
 use gnomon::site::AreaSurface;
@@ -191,6 +192,10 @@ fn area_times_time_of_a_year() {
     let Quantity::AreaTime(value) = finding.value else { panic!("{finding:?}") };
     assert!((value / (20.0 * open as f64) - 1.0).abs() < 1e-9, "{value} {open}");
     assert_eq!(found.verdict, Verdict::Report);
+    // the square-foot-hours of the reports; a foot is 0.3048 m
+    let row = receiver_row(&found, &found.receivers[0]);
+    assert_eq!(row.value, format!("{:.0} ft²h", value / 3600.0 / 0.092_903_04));
+    assert!(csv(&found).contains(",m2 s,"), "numbers for programs are in metres");
     let limited = |limit: &str| judged(&asked, "us-sf-295", &[("limit", limit)]).verdict;
     assert_eq!([limited("1"), limited("0.99")], [Verdict::Pass, Verdict::Fail]);
 }
@@ -207,6 +212,9 @@ fn new_shadow_is_timed_and_all_sun_gone_is_told() {
         let window = total_secs(&day.windows);
         assert_eq!((finding.value, finding.no_sun_left_secs), (Quantity::Secs(window), Some(window)));
     }
+    let dates: Vec<String> =
+        csv(&found).lines().skip(1).map(|line| line.split(',').nth(7).unwrap().to_owned()).collect();
+    assert_eq!(dates, found.days.iter().map(|day| day.date.to_string()).collect::<Vec<_>>(), "a line for each day");
     let spells = &found.receivers[0].spells;
     assert!(spells.iter().zip(&found.days).all(|(told, day)| told.newly_shaded.as_ref() == Some(&day.windows)));
 }

@@ -2,6 +2,7 @@
 
 use super::{area, nothing, site, tried, window};
 use glam::{DVec3, dvec3};
+use gnomon::rules::{Rule, built_in_text};
 use gnomon::site::{JudgedPlot, JudgedSite, PlotSide};
 use gnomon::study::StudyError;
 
@@ -80,4 +81,23 @@ fn a_listener_can_end_it() {
     let resolved = rule.resolve(&[]).expect("options");
     let ended = gnomon::study::judge::judge(&asked, &rule.source, &resolved, &mut |_| std::ops::ControlFlow::Break(()));
     assert!(matches!(ended, Err(StudyError::Interrupted)));
+}
+
+#[test]
+fn an_option_that_nobody_chose_and_what_the_site_lacks_are_one_error() {
+    let rule = Rule::parse("jp-bsa-56-2", built_in_text("jp-bsa-56-2").expect("built in")).expect("a rule");
+    let mut asked = site(super::london(), vec![nothing()], None);
+    let error = |asked: &JudgedSite, given: &[(&str, &str)]| {
+        let error = rule.resolve(given).expect_err("options are not chosen");
+        StudyError::from(gnomon::study::judge::with_needs(error, &rule, given, asked)).to_string()
+    };
+    let all = error(&asked, &[("near", "3h")]);
+    for word in ["`plane`", "`far`", "it also needs the plot", "add [plot] to the site file"] {
+        assert!(all.contains(word), "{all}");
+    }
+    assert!(!all.contains("`near`"), "{all}");
+    let border = vec![super::corner(0.0, 0.0), super::corner(9.0, 0.0), super::corner(9.0, 9.0)];
+    asked.plot = Some(JudgedPlot { border, sides: vec![PlotSide::default(); 3], mean_ground: Some(0.0) });
+    let options = error(&asked, &[]);
+    assert!(options.contains("`plane`") && !options.contains("also needs"), "{options}");
 }

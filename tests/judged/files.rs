@@ -63,6 +63,12 @@ fn a_file_gives_its_polygons() {
     let corner = site.areas[0].rings[0][0];
     assert!(corner.distance(dvec2(100.0, 100.0)) < 1e-3, "{corner}");
     assert!(notes(&site).contains("parks.geojson has 1 LineString left out"), "{}", notes(&site));
+    // a polygon's own dwelling goes before the key, which holds for the others
+    let of_flat = parks().replace("\"name\": \"Park\"", "\"name\": \"Park\", \"dwelling\": \"flat 1\"");
+    write(&folder, "flats.geojson", &of_flat);
+    write(&folder, "site.toml", &format!("{}[[area]]\nfile = \"flats.geojson\"\ndwelling = \"flat 2\"", super::HEAD));
+    let dwellings: Vec<_> = open(folder.path()).areas.into_iter().map(|area| area.dwelling.unwrap()).collect();
+    assert_eq!(dwellings, ["flat 1", "flat 2"]);
     // one of them, at a height of its own
     write(
         &folder,

@@ -1,14 +1,20 @@
 //! Spells, and the ways to count them.
 
 use super::{hours, minutes};
-use gnomon::rules::{Bridge, CountHow, CountedTime, Counting, Spell, common, merged, total_secs, without};
+use gnomon::rules::{AreaUnit, Bridge, CountHow, CountedTime, Counting, Spell, common, merged, total_secs, without};
 
 fn spell(start: i64, end: i64) -> Spell {
     Spell::new(start, end)
 }
 
-const PLAIN: Counting =
-    Counting { what: CountedTime::Sun, how: CountHow::Total, shortest_secs: 0, bridge: None, step_secs: 0 };
+const PLAIN: Counting = Counting {
+    what: CountedTime::Sun,
+    how: CountHow::Total,
+    shortest_secs: 0,
+    bridge: None,
+    step_secs: 0,
+    unit: AreaUnit::SquareMetres,
+};
 
 #[test]
 fn spells_are_merged_cut_and_taken_off() {

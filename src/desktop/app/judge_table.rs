@@ -16,6 +16,8 @@ const SWATCH: f32 = 26.0;
 const VALUE: f32 = 74.0;
 const MARGIN: f32 = 78.0;
 const DAY: f32 = 80.0;
+/// Stands for the margin of a number that is accepted though it misses its limit.
+const ACCEPTED: &str = "accepted";
 /// From this width on there is a column for who takes the sun.
 const WIDE: f32 = 540.0;
 
@@ -184,7 +186,7 @@ fn headings(ui: &mut Ui, columns: &Columns, (sort, is_reversed): (SortBy, bool))
     heading("margin", columns.value, columns.margin, Some(SortBy::Margin), right);
     heading("day", columns.margin, columns.day, Some(SortBy::Day), right);
     if columns.width > columns.day + 1.0 {
-        heading("taken by", columns.day + 10.0, columns.width, None, left);
+        heading("taken by, or why", columns.day + 10.0, columns.width, None, left);
     }
     clicked
 }
@@ -229,9 +231,11 @@ fn row(ui: &mut Ui, columns: &Columns, line: &JudgedLine, is_chosen: bool, heigh
         text(columns.name, columns.day, &line.value, left, ink);
     } else {
         text(columns.name, columns.value, &line.value, right, ink);
-        text(columns.value, columns.margin, &line.margin, right, ink);
+        // a missed limit beside a pass would be a riddle; the pointer and the card say why, too
+        let margin = if line.excuse.is_some() { ACCEPTED } else { &line.margin };
+        text(columns.value, columns.margin, margin, right, ink);
         text(columns.margin, columns.day, &line.day, right, quiet);
-        text(columns.day + 10.0, columns.width, &line.taker, left, quiet);
+        text(columns.day + 10.0, columns.width, line.excuse.as_ref().unwrap_or(&line.taker), left, quiet);
     }
     response.on_hover_text(label).clicked()
 }
@@ -244,6 +248,9 @@ fn said(line: &JudgedLine) -> String {
     }
     if !line.limit.is_empty() && line.limit != "-" {
         said += &format!(" for a limit of {}, margin {}", line.limit, line.margin);
+    }
+    if let Some(why) = &line.excuse {
+        said += &format!(", {ACCEPTED}: {why}");
     }
     if !line.day.is_empty() && line.day != "-" {
         said += &format!(", on {}", line.day);

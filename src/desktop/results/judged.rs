@@ -53,6 +53,8 @@ pub(in crate::desktop) struct JudgedLine {
     pub(in crate::desktop) day: String,
     /// Who takes the most sun.
     pub(in crate::desktop) taker: String,
+    /// Why the number is accepted though it misses the limit.
+    pub(in crate::desktop) excuse: Option<String>,
     /// The margin as a share of the limit.
     slack: f64,
 }
@@ -202,6 +204,7 @@ fn receiver_line(site: &JudgedSite, judgement: &Judgement, (at, receiver): (usiz
         margin: row.margin,
         day: row.day,
         taker: receiver.takers.first().map_or_else(String::new, |taker| taker_row(site, taker).name),
+        excuse: row.excuse,
         slack: slack(Some(&receiver.ruling)),
     }
 }
@@ -217,6 +220,7 @@ fn group_line((at, group): (usize, &GroupRuling)) -> JudgedLine {
         margin: String::new(),
         day: String::new(),
         taker: String::new(),
+        excuse: None,
         slack: slack(group.ruling.as_ref()),
     }
 }

@@ -3,25 +3,36 @@
 use super::super::names::field;
 use super::numbers::{date_of, deciding, excuse, number, secs_of, share_of, worst_counted};
 use crate::judgement::{Judgement, ReceiverRuling};
+use crate::rules::{Finding, Ruling, Verdict};
 use std::fmt::Write;
 
 const HEAD: &str = "name,kind,dwelling,room,use,verdict,grade,date,x,y,z,unit,value,limit,margin,before,difference,share,\
                     share_limit,share_before,share_error,excuse\r\n";
 
-/// A table with one line per receiver, in the site's order, as in RFC 4180. `value`, `limit`, `margin`, `before` and
-/// `difference` are in the `unit`: s, m2 or m2 s; shares are of the area. A field without a value is empty.
+/// A table with one line per receiver, in the site's order, as in RFC 4180; if the rule only reports and has several
+/// days, with one line per receiver and day. `value`, `limit`, `margin`, `before` and `difference` are in the `unit`: s,
+/// m2 or m2 s; shares are of the area. A field without a value is empty.
 pub fn csv(judgement: &Judgement) -> String {
     let mut text = HEAD.to_owned();
     for receiver in &judgement.receivers {
-        let cells = cells(judgement, receiver);
-        // Writing to a String cannot fail.
-        let _ = write!(text, "{}\r\n", cells.iter().map(|cell| field(cell)).collect::<Vec<_>>().join(","));
+        for finding in findings(&receiver.ruling) {
+            let cells = cells(judgement, receiver, finding);
+            // Writing to a String cannot fail.
+            let _ = write!(text, "{}\r\n", cells.iter().map(|cell| field(cell)).collect::<Vec<_>>().join(","));
+        }
     }
     text
 }
 
-fn cells(judgement: &Judgement, of: &ReceiverRuling) -> Vec<String> {
-    let finding = deciding(&of.ruling);
+/// What decides; where nothing does because the rule only reports, every finding, so that no day is left out.
+fn findings(ruling: &Ruling) -> Vec<Option<&Finding>> {
+    match ruling.verdict {
+        Verdict::Report if !ruling.findings.is_empty() => ruling.findings.iter().map(Some).collect(),
+        _ => vec![deciding(ruling)],
+    }
+}
+
+fn cells(judgement: &Judgement, of: &ReceiverRuling, finding: Option<&Finding>) -> Vec<String> {
     let text = |text: &Option<String>| text.clone().unwrap_or_default();
     let written = |number: Option<f64>| number.map(|number| (number + 0.0).to_string()).unwrap_or_default();
     let value = finding.map(|finding| number(finding.value));
@@ -31,7 +42,9 @@ fn cells(judgement: &Judgement, of: &ReceiverRuling) -> Vec<String> {
     let limit = finding.and_then(|finding| finding.limit);
     let share = |quantity| of.area.and_then(|area| share_of(quantity, area.m2));
     let own_share = share(finding.map(|finding| finding.value));
-    let point = of.points.first();
+    // the point is the one that decides
+    let is_deciding = finding.is_none_or(|finding| deciding(&of.ruling) == Some(finding));
+    let point = of.points.first().filter(|_| is_deciding);
     let at = |of: fn(&glam::DVec3) -> f64| written(point.map(of).map(|at| (at * 1000.0).round() / 1000.0));
     let difference = value.zip(before.map(|before| number(before).0)).map(|(now, before)| now - before);
     debug_assert!(finding.is_none() || secs_of(finding.map(|finding| finding.value)).is_none() || unit == "s");
@@ -43,7 +56,11 @@ fn cells(judgement: &Judgement, of: &ReceiverRuling) -> Vec<String> {
         text(&of.usage),
         of.ruling.verdict.to_string(),
         text(&of.ruling.grade),
-        date_of(judgement, of).map(|date| date.to_string()).unwrap_or_default(),
+        finding
+            .and_then(|finding| finding.date)
+            .or(date_of(judgement, of))
+            .map(|date| date.to_string())
+            .unwrap_or_default(),
         at(|point| point.x),
         at(|point| point.y),
         at(|point| point.z),

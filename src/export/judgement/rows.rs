@@ -4,7 +4,7 @@ use super::super::names::plain;
 use super::super::probe::{clock, triple};
 use super::numbers::{component_name, date_of, deciding, excuse, worst_counted};
 use crate::judgement::{GroupRuling, Judgement, ReceiverRuling, Taker};
-use crate::rules::{Finding, Quantity, Verdict};
+use crate::rules::{AreaUnit, Finding, Quantity, Verdict};
 use crate::site::JudgedSite;
 
 /// What is said of a receiver; `-` where there is nothing to say.
@@ -33,10 +33,12 @@ pub struct ReceiverRow {
 /// What is said of a receiver.
 pub fn receiver_row(judgement: &Judgement, receiver: &ReceiverRuling) -> ReceiverRow {
     let finding = deciding(&receiver.ruling);
-    let told = |quantity: Option<Quantity>| quantity.map_or_else(|| "-".to_owned(), |it| said(it, receiver));
+    let unit = judgement.rule.counting.unit;
+    let told = |quantity: Option<Quantity>| quantity.map_or_else(|| "-".to_owned(), |it| said(it, (receiver, unit)));
     let counted = || worst_counted(judgement, receiver).map(|(_, secs)| Quantity::Secs(secs));
     let of_finding = |of: fn(&Finding) -> Option<Quantity>| told(finding.and_then(of));
-    let margin = finding.and_then(|finding| finding.margin.map(|margin| margin_said(finding, margin, receiver)));
+    let margin =
+        finding.and_then(|finding| finding.margin.map(|margin| margin_said(finding, margin, (receiver, unit))));
     ReceiverRow {
         name: plain(&receiver.name),
         verdict: receiver.ruling.verdict,
@@ -67,19 +69,29 @@ pub fn taker_row(site: &JudgedSite, taker: &Taker) -> TakerRow {
     TakerRow { name: plain(&component_name(&site.now, taker.component)), alone, with_others }
 }
 
+/// An area times time, in the rule's unit.
+pub(super) fn area_hours(m2_secs: f64, unit: AreaUnit) -> String {
+    const FOOT_M: f64 = 0.3048;
+    let m2_hours = m2_secs / 3600.0;
+    match unit {
+        AreaUnit::SquareMetres => format!("{m2_hours:.1} m²h"),
+        AreaUnit::SquareFeet => format!("{:.0} ft²h", m2_hours / (FOOT_M * FOOT_M)),
+    }
+}
+
 /// A number with its unit; a part of an area as a share with its error.
-fn said(quantity: Quantity, receiver: &ReceiverRuling) -> String {
+fn said(quantity: Quantity, (receiver, unit): (&ReceiverRuling, AreaUnit)) -> String {
     match (quantity, receiver.area) {
         (Quantity::Secs(secs), _) => clock(secs),
         (Quantity::AreaM2(m2), Some(area)) => format!("{:.2} %", 100.0 * m2 / area.m2),
         (Quantity::AreaM2(m2), None) => format!("{m2:.2} m²"),
         (Quantity::Share(share), _) => format!("{:.2} %", 100.0 * share),
-        (Quantity::AreaTime(m2_secs), _) => format!("{:.1} m²h", m2_secs / 3600.0),
+        (Quantity::AreaTime(m2_secs), _) => area_hours(m2_secs, unit),
         (Quantity::Count(count), _) => count.to_string(),
     }
 }
 
-fn margin_said(finding: &Finding, margin: f64, receiver: &ReceiverRuling) -> String {
+fn margin_said(finding: &Finding, margin: f64, of: (&ReceiverRuling, AreaUnit)) -> String {
     let sign = if margin < 0.0 { "−" } else { "+" };
     let size = margin.abs();
     let quantity = match finding.value {
@@ -89,7 +101,7 @@ fn margin_said(finding: &Finding, margin: f64, receiver: &ReceiverRuling) -> Str
         Quantity::AreaTime(_) => Quantity::AreaTime(size),
         Quantity::Count(_) => Quantity::Count(size as usize),
     };
-    format!("{sign}{}", said(quantity, receiver))
+    format!("{sign}{}", said(quantity, of))
 }
 
 /// The numbers of a group after its verdict: `, 2 of 3 needed`; empty if there are none.
@@ -98,7 +110,7 @@ pub fn group_said(group: &GroupRuling) -> String {
         Quantity::Secs(secs) => clock(secs),
         Quantity::Share(share) => format!("{:.1} %", 100.0 * share),
         Quantity::AreaM2(m2) => format!("{m2:.2} m²"),
-        Quantity::AreaTime(m2_secs) => format!("{:.1} m²h", m2_secs / 3600.0),
+        Quantity::AreaTime(m2_secs) => area_hours(m2_secs, AreaUnit::default()),
         Quantity::Count(count) => count.to_string(),
     };
     if let Some(by) = &group.by_rooms {

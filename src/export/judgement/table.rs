@@ -3,7 +3,7 @@
 use super::super::names::plain;
 use super::super::probe::clock;
 use super::numbers::{CHECK, no_sun_left_limit};
-use super::rows::{ReceiverRow, TakerRow, group_said, receiver_row, taker_row};
+use super::rows::{ReceiverRow, TakerRow, area_hours, group_said, receiver_row, taker_row};
 use super::rule_report::clock_word;
 use crate::judgement::{ERROR_ODDS, Judgement, Taker};
 use crate::message::few;
@@ -119,7 +119,8 @@ fn exactness(text: &mut String, judgement: &Judgement) {
         );
     }
     if let Some(error) = areas().filter_map(|area| area.error_m2_secs).max_by(f64::total_cmp) {
-        let _ = writeln!(text, "area times time is known to about ±{:.0} m² h", error / 3600.0);
+        let error = area_hours(error, judgement.rule.counting.unit);
+        let _ = writeln!(text, "area times time is known to about ±{error}");
     }
     let of_parts = judgement
         .receivers

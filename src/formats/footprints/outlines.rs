@@ -27,6 +27,8 @@ pub(crate) struct OutlineFile {
 pub(crate) struct NamedOutline {
     /// What the file calls it.
     pub(crate) name: Option<String>,
+    /// The dwelling whose open space it is, as the file says it.
+    pub(crate) dwelling: Option<String>,
     /// Its number in the file, from 1.
     pub(crate) number: u64,
     /// All borders and holes, in the file's coordinates.
@@ -51,6 +53,7 @@ fn read(path: &Path) -> Result<OutlineFile, ModelFault> {
     }
     let outline = |feature: super::footprint::Footprint| NamedOutline {
         name: feature.tags.name.clone(),
+        dwelling: feature.tags.dwelling.clone(),
         number: feature.number,
         rings: feature.polygons.iter().flat_map(rings).collect(),
     };

@@ -21,6 +21,8 @@ pub(super) struct FootprintTags {
     house: Option<String>,
     /// Its usual name.
     pub name: Option<String>,
+    /// The dwelling whose open space an area is; our own key, which OpenStreetMap lacks.
+    pub dwelling: Option<String>,
     /// The file's own number for it.
     pub id: Option<String>,
 }
@@ -88,6 +90,7 @@ impl FootprintTags {
             "addr_street" | "addr_stree" => &mut self.street,
             "addr_housenumber" | "addr_house" => &mut self.house,
             "name" => &mut self.name,
+            "dwelling" => &mut self.dwelling,
             "id" | "@id" | "osm_id" | "osm_way_id" | "gml_id" | "fid" => &mut self.id,
             _ => return None,
         })

@@ -38,7 +38,8 @@ pub(super) fn areas(
         let table = AskedTable { written, name: "area", at: (index, written.site.area.len()) };
         let of_table = of_table(&table, area, (place, mesh), &mut notes)?;
         let dwelling = table.named(area.dwelling.as_ref()).map(str::to_owned);
-        for area in of_table.into_iter().map(|of| JudgedArea { dwelling: dwelling.clone(), ..of }) {
+        // what a file says of a polygon goes before the table's key, which holds for all of them
+        for area in of_table.into_iter().map(|of| JudgedArea { dwelling: of.dwelling.or(dwelling.clone()), ..of }) {
             if !names.take(&area.name) {
                 let what = format!("\"{}\" is the name of another area, too", area.name);
                 return Err(table.wrong("name", message![what; "give each its own name"]));
@@ -107,7 +108,7 @@ fn of_outlines(
 ) -> Result<Vec<JudgedArea>, SiteError> {
     let is_alone = outlines.len() == 1;
     let (mut areas, mut known) = (Vec::new(), Vec::new());
-    for PlacedOutline { name, number, rings } in outlines {
+    for PlacedOutline { name, dwelling, number, rings } in outlines {
         let name = match (name, asked) {
             (None, None) => {
                 let what = format!("feature {number} has no `name`");
@@ -121,7 +122,7 @@ fn of_outlines(
                 continue;
             }
         };
-        areas.push(bounded(table, "file", (name, &rings, surface.clone()))?);
+        areas.push(JudgedArea { dwelling, ..bounded(table, "file", (name, &rings, surface.clone()))? });
     }
     match asked {
         Some(asked) if areas.is_empty() => {

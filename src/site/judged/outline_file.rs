@@ -13,6 +13,8 @@ use glam::{DVec2, DVec3};
 pub(super) struct PlacedOutline {
     /// Its name in the file, if it has one.
     pub(super) name: Option<String>,
+    /// The dwelling whose open space it is, if the file says one.
+    pub(super) dwelling: Option<String>,
     /// Its number in the file, from 1.
     pub(super) number: u64,
     /// Its borders and holes.
@@ -62,7 +64,7 @@ fn frame(place: &Place) -> Option<LocalFrame> {
 
 /// One feature in the frame of the place.
 fn placed(outline: NamedOutline, crs: Option<&Crs>, frame: Option<&LocalFrame>) -> Result<PlacedOutline, Message> {
-    let NamedOutline { name, number, rings } = outline;
+    let NamedOutline { name, dwelling, number, rings } = outline;
     let point = |at: DVec3| match crs {
         None => Ok(at.truncate()),
         Some(crs) => {
@@ -75,5 +77,5 @@ fn placed(outline: NamedOutline, crs: Option<&Crs>, frame: Option<&LocalFrame>) 
         }
     };
     let rings = rings.into_iter().map(|ring| ring.into_iter().map(point).collect()).collect::<Result<_, _>>()?;
-    Ok(PlacedOutline { name, number, rings })
+    Ok(PlacedOutline { name, dwelling, number, rings })
 }

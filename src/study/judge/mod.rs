@@ -28,5 +28,6 @@ mod windows;
 
 pub use asking::judge;
 pub use kept::{KeptByDemand, kept_by, plot_to_build_on};
+pub use needs::with_needs;
 #[cfg(feature = "test-hooks")]
 pub use parts::{MeasuredPart, measured_part};

@@ -4,8 +4,8 @@ use super::open_spaces::of_dwellings;
 use crate::judgement::{CountedParts, needed_of_window};
 use crate::message::few;
 use crate::rules::{
-    CompareWith, CountedTime, Criterion, DwellingShare, Grouping, HeightOver, OpenSpaces, ResolvedRule, RuleError,
-    RuleNeed, RuleReceiver,
+    CompareWith, CountedTime, Criterion, DwellingShare, Grouping, HeightOver, OpenSpaces, ResolvedRule, Rule,
+    RuleError, RuleNeed, RuleReceiver,
 };
 use crate::site::{JudgedArea, JudgedSite};
 use std::collections::BTreeMap;
@@ -20,6 +20,17 @@ const MOST_NAMES: usize = 30;
 pub(super) fn check(rule: &ResolvedRule, site: &JudgedSite) -> Result<(), RuleError> {
     let needs = lacking(rule, site);
     if needs.is_empty() { Ok(()) } else { Err(RuleError::Needs { rule: rule.id.clone(), needs }) }
+}
+
+/// Adds to the error of options that nobody chose what a site lacks whatever is chosen, so that one error lists all of
+/// it. Other errors stay as they are.
+pub fn with_needs(error: RuleError, rule: &Rule, given: &[(&str, &str)], site: &JudgedSite) -> RuleError {
+    let RuleError::Unsaid { rule: id, missing, .. } = error else { return error };
+    let open = rule.resolve_open(given).unwrap_or_default();
+    let of_each: Vec<Vec<RuleNeed>> = open.iter().map(|rule| lacking(rule, site)).collect();
+    let (first, others) = of_each.split_first().map_or((&[][..], &[][..]), |(first, others)| (first, others));
+    let needs = first.iter().filter(|need| others.iter().all(|other| other.contains(need))).cloned().collect();
+    RuleError::Unsaid { rule: id, missing, needs }
 }
 
 /// What a rule needs and a site lacks.

@@ -2,7 +2,7 @@
 
 use super::hours::label;
 use super::labels::Labels;
-use super::{Line, LineDrawing, LineGroup, Scale, fill, group, paths, stroke};
+use super::{Line, LineDrawing, LineGroup, Scale, fill, group, group_within, paths, stroke};
 use crate::contour::{Contour, ScalarField, contours};
 use crate::export::check_size;
 use crate::export::envelope::EnvelopeMap;
@@ -51,9 +51,10 @@ pub fn heights(map: &EnvelopeMap) -> Result<LineDrawing, ExportError> {
     let step_mm = step_mm(range);
     let first = (f64::from(range[0]) * 1000.0 / step_mm as f64).floor().max(0.0) as u64;
     let last = (f64::from(range[1]) * 1000.0 / step_mm as f64).ceil().max(0.0) as u64;
-    let is_plot = |cell: usize| map.height(cell).is_some();
+    let drawn = beyond_border(map);
+    let is_plot = |cell: usize| drawn[cell].is_some();
     // a millimetre more than the height, so that what is as high as a line lies above it
-    let value = |cell: usize| map.height(cell).map_or(0, |height| (f64::from(height).max(0.0) * 1000.0) as u64 + 1);
+    let value = |cell: usize| drawn[cell].map_or(0, |height| (f64::from(height).max(0.0) * 1000.0) as u64 + 1);
     // a steep side, on which many lines would lie, is a line of its own
     let is_steep = |one: usize, other: usize| value(one).abs_diff(value(other)) > STEEP_STEPS * step_mm;
     let open = |one: usize, other: usize| is_plot(one) && is_plot(other) && !is_steep(one, other);
@@ -70,6 +71,23 @@ pub fn heights(map: &EnvelopeMap) -> Result<LineDrawing, ExportError> {
     let draw = |fit: Fit| sheet(map, &bands, step_mm, fit);
     let panel = panel(map, &bands, (step_mm, cap_mm), range);
     Ok(LineDrawing::new(&panel, (grid.width, grid.height), grid.cell, draw))
+}
+
+/// The heights, and around the plot's cells a ring of cells with the height of a neighbour. The plot's own cells end up
+/// to half a cell before its border; with the ring, which is cut off at the border, colours and lines reach it.
+fn beyond_border(map: &EnvelopeMap) -> Vec<Option<f32>> {
+    let (width, height) = (map.grid.width as usize, map.grid.height as usize);
+    let near = |cell: usize| {
+        let (x, y) = (cell % width, cell / width);
+        // those at a side go before those at a corner
+        const AROUND: [(isize, isize); 8] = [(-1, 0), (1, 0), (0, -1), (0, 1), (-1, -1), (1, -1), (-1, 1), (1, 1)];
+        AROUND.iter().find_map(|(right, down)| {
+            let x = x.checked_add_signed(*right).filter(|x| *x < width)?;
+            let y = y.checked_add_signed(*down).filter(|y| *y < height)?;
+            map.height(y * width + x)
+        })
+    };
+    (0..map.heights.len()).map(|cell| map.height(cell).or_else(|| near(cell))).collect()
 }
 
 /// From line to line, millimetres: a round length of which there are few enough.
@@ -95,10 +113,16 @@ fn sheet(map: &EnvelopeMap, bands: &[HeightBand], step_mm: u64, fit: Fit) -> Blo
     let buildings = contours(&field, 0);
     // below the heights, whose colours say how high: what stands on the plot is an outline there
     group(&mut block, "buildings", |block| fill(block, &scale.areas(&buildings), BUILDING, 1.0));
-    group(&mut block, "heights", |block| {
+    let on_page =
+        |x: f64, y: f64| scale.point([(x - map.grid.west) / map.grid.cell, (map.grid.north - y) / map.grid.cell]);
+    let border: Line = map.border.iter().chain(map.border.first()).map(|at| on_page(at.x, at.y)).collect();
+    let outline = paths(std::slice::from_ref(&border));
+    let within_plot =
+        |block: &mut Block, name: &str, what: &dyn Fn(&mut Block)| group_within(block, name, &outline, what);
+    within_plot(&mut block, "heights", &|block| {
         bands.iter().for_each(|band| fill(block, &scale.areas(&band.contours), band.tone, 1.0));
     });
-    group(&mut block, "sides", |block| {
+    within_plot(&mut block, "sides", &|block| {
         for band in bands {
             stroke(block, &scale.areas(&band.contours), SIDE_WIDTH, LINE, "");
         }
@@ -106,15 +130,10 @@ fn sheet(map: &EnvelopeMap, bands: &[HeightBand], step_mm: u64, fit: Fit) -> Blo
     group(&mut block, "outlines", |block| scale.lines(&buildings).draw(block, 2.0, INK, ""));
     let lines: Vec<(String, LineGroup)> =
         bands.iter().map(|band| (said(band.from_mm, step_mm), scale.lines(&band.contours))).collect();
-    group(&mut block, "lines", |block| {
+    within_plot(&mut block, "lines", &|block| {
         lines.iter().for_each(|(said, lines)| lines.draw(block, WIDTH, LINE, said));
     });
-    let on_page =
-        |x: f64, y: f64| scale.point([(x - map.grid.west) / map.grid.cell, (map.grid.north - y) / map.grid.cell]);
-    let border: Line = map.border.iter().chain(map.border.first()).map(|at| on_page(at.x, at.y)).collect();
-    group(&mut block, "plot", |block| {
-        stroke(block, &paths(std::slice::from_ref(&border)), 6.0, ACCENT, "the plot");
-    });
+    group(&mut block, "plot", |block| stroke(block, &outline, 6.0, ACCENT, "the plot"));
     group(&mut block, "points", |block| {
         // what lies beyond the sheet is only counted
         let is_shown = |point: &&glam::DVec3| {

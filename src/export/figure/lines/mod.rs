@@ -163,6 +163,19 @@ fn group(block: &mut Block, name: &str, what: impl FnOnce(&mut Block)) {
     }
 }
 
+/// The same, with what lies beyond an outline cut off.
+fn group_within(block: &mut Block, name: &str, outline: &str, what: impl FnOnce(&mut Block)) {
+    let mut group = Block::default();
+    what(&mut group);
+    if !group.svg.is_empty() {
+        block.push(format_args!(
+            "<clipPath id=\"within-{name}\"><path d=\"{outline}\" clip-rule=\"evenodd\"/></clipPath>\
+             <g id=\"{name}\" clip-path=\"url(#within-{name})\">{}</g>",
+            group.svg
+        ));
+    }
+}
+
 /// Fills contours with a flat colour.
 fn fill(block: &mut Block, data: &str, colour: Rgb, opacity: f64) {
     if data.is_empty() {
