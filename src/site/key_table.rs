@@ -297,7 +297,7 @@ pub const SITE_KEYS: &[SiteKey] = &[
         .default("none")
         .means("The dwelling whose open space it is, as of a window. Only rules that judge dwellings ask for it."),
     key("window", "name", ValueType::Text, "name = \"kitchen\"")
-        .default("the component's name, or window 1, window 2, …")
+        .default("of a component's names the one that tells it best from the others, or window 1, window 2, …")
         .means("What the verdict calls it; several panes are numbered."),
     key("window", "component", ValueType::TextOrTexts, "component = \"IfcWindow/Glass\"")
         .default("`component` or `corners` must be written")

@@ -145,3 +145,27 @@ fn bodies_are_no_windows() {
     assert_eq!(site.windows.len(), 2);
     assert!(notes(&site).contains("1 piece of \"barn\" is not flat"), "{}", notes(&site));
 }
+
+/// All panes of the house have the name of their type and glass; the file's own names and storeys tell them apart.
+#[test]
+#[cfg(feature = "ifc")]
+fn windows_have_the_names_that_tell_them_apart() {
+    let folder = super::folder("[[window]]\ncomponent = \"IfcWindow\"");
+    let house = concat!(env!("CARGO_MANIFEST_DIR"), "/sites/hillside/house.ifc");
+    std::fs::copy(house, folder.path().join("house.ifc")).expect("a model");
+    let site = std::fs::read_to_string(folder.path().join("site.toml")).expect("a site file");
+    super::write(&folder, "site.toml", &site.replace("town.obj\"\nup = \"z\"", "house.ifc\""));
+    let site = super::open(folder.path());
+    assert_eq!(site.windows.len(), 20);
+    for name in ["South wall, window 3, Upper floor", "West wall, window 1, Ground floor"] {
+        assert!(site.windows.iter().any(|window| window.name == name), "{:?}", site.windows);
+    }
+    assert!(site.windows.iter().all(|window| !window.name.contains("Ifc")), "{:?}", site.windows);
+}
+
+/// Pieces of one object whose name ends in a number are not numbered with a second one.
+#[test]
+fn a_number_does_not_follow_a_number() {
+    let site = judged("[[window]]\nname = \"bay 2\"\ncomponent = \"glass\"");
+    assert_eq!([&site.windows[0].name, &site.windows[1].name], ["bay 2 (1)", "bay 2 (2)"]);
+}

@@ -16,6 +16,7 @@ mod plot;
 mod request;
 mod rings;
 mod rooms;
+mod window_names;
 mod windows;
 
 pub use days::study_days;

@@ -4,6 +4,7 @@ use super::asked_table::{AskedTable, TakenNames};
 use super::glass::{Pane, outward, pane, rectangle};
 use super::glazing::joined;
 use super::request::JudgedWindow;
+use super::window_names::telling_names;
 use crate::mesh::Mesh;
 use crate::message::{Message, few, message};
 use crate::site::error::SiteError;
@@ -92,13 +93,14 @@ fn add_panes(
     (names, mesh): (&WrittenNames, &Mesh),
 ) -> Result<(), SiteError> {
     let chosen = table.chosen("component", names, mesh)?;
+    let told = telling_names(&mesh.components, &chosen);
     let (mut found, mut bulky, mut odd, mut doubled) = (0_usize, Vec::new(), Vec::new(), Vec::new());
     for (index, component) in mesh.components.iter().enumerate().filter(|(index, _)| chosen[*index]) {
         if std::mem::replace(&mut asked.is_glass[index], true) {
             let what = format!("\"{}\" is glass of another [[window]], too", component.name);
             return Err(table.wrong("component", message![what; "name each once"]));
         }
-        let name = table.named(table.written.site.window[table.at.0].name.as_ref()).unwrap_or(&component.name);
+        let name = table.named(table.written.site.window[table.at.0].name.as_ref()).unwrap_or(&told[index]);
         let panes: Vec<Option<Pane>> = pieces(mesh, component).iter().map(|piece| pane(mesh, piece)).collect();
         let said = || format!("\"{}\"", component.name);
         bulky.extend(panes.iter().filter(|pane| pane.is_none()).map(|_| said()));
@@ -167,7 +169,12 @@ fn tell_apart(asked: &mut AskedWindows, written: &WrittenSite) -> Result<(), Sit
         let number = numbers.entry(plain.clone()).or_default();
         window.name = loop {
             *number += 1;
-            let name = if is_alone && *number == 1 { plain.clone() } else { format!("{plain} {number}") };
+            let name = match is_alone && *number == 1 {
+                true => plain.clone(),
+                // a second number in a row would be read as one
+                false if plain.ends_with(|last: char| last.is_ascii_digit()) => format!("{plain} ({number})"),
+                false => format!("{plain} {number}"),
+            };
             if names.take(&name) {
                 break name;
             }
