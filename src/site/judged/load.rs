@@ -95,11 +95,14 @@ fn no_date(error: SiteError, written: &WrittenSite) -> SiteError {
 }
 
 /// A note that the glass of judged windows does not cast.
-fn note_glass(names: Vec<String>) -> Option<Message> {
+fn note_glass(mut names: Vec<String>) -> Option<Message> {
     let (components, they) = match names.len() {
         0 => return None,
         1 => ("1 component of glass whose windows are judged lets".to_owned(), "it casts"),
         more => (format!("{more} components of glass whose windows are judged let"), "they cast"),
     };
+    // panes of one type are often all called the same
+    names.sort();
+    names.dedup();
     Some(Message::from(format!("{components} the sun through: {they} no shadow here ({})", few(names))))
 }
