@@ -190,6 +190,7 @@ fn map<'a>(
     EnvelopeMap {
         place,
         ground,
+        foot_m: 0.0,
         grid: &headroom.grid,
         heights,
         cap_m: 60.0,
@@ -395,6 +396,39 @@ fn the_command_writes_heights_that_keep_the_sun() {
     for word in ["envelope.tif", "north", "lowest ray", "check with your authority", "chosen: clock = legal"] {
         assert!(said.to_lowercase().contains(word), "{word}: {said}");
     }
+}
+
+/// On a level terrain 12 m up, whose models reach far below it, heights are those on a plane at 12 m.
+#[test]
+fn on_terrain_heights_are_above_its_lowest_point_on_the_plot() {
+    let folder = site();
+    let path = folder.path();
+    let tables = SITE.replace("1.5]", "13.5]").replace("3]]", "15]]").replace(" 3],", " 15],");
+    let field = "o field\nv -200 -200 12\nv 200 -200 12\nv 200 200 12\nv -200 200 12\nf 1 2 3 4\n";
+    let pit = "o pit\nv 90 90 -30\nv 91 90 -30\nv 90 91 -30\nf 1 2 3\n";
+    std::fs::write(path.join("field.obj"), field).unwrap();
+    std::fs::write(path.join("pit.obj"), pit).unwrap();
+    let obj = |name: &str, more: &str| format!("[[model]]\npath = \"{name}.obj\"\nup = \"z\"\n{more}\n");
+    let models = obj("pit", "") + &obj("field", "terrain = true");
+    std::fs::write(path.join("terrain.toml"), format!("{PLACE}{models}{tables}")).unwrap();
+    std::fs::write(path.join("plane.toml"), format!("{PLACE}{}[ground]\nlevel = 12\n{tables}", obj("pit", "")))
+        .unwrap();
+    let asked = |name: &str| {
+        let asked =
+            format!("envelope {name}.toml --rule pl-wt-60 --set clock=legal --set hours=9h --cell 1 --highest 50");
+        let json = done(path, &format!("{asked} --json --out {name} --quiet"));
+        (serde_json::from_str::<Value>(&json).unwrap(), std::fs::read(path.join(name).join("envelope.obj")).unwrap())
+    };
+    let ((terrain, solid), (plane, solid_on_plane)) = (asked("terrain"), asked("plane"));
+    assert_eq!([&terrain["ground_from"], &plane["ground_from"]], ["terrain", "site"]);
+    assert_eq!([&terrain["heights_above"], &plane["heights_above"]], ["the lowest terrain on the plot", "the ground"]);
+    for key in ["foot_m", "least_m", "greatest_m", "volume_m3"] {
+        let [one, other] = [&terrain, &plane].map(|json| json[key].as_f64().unwrap());
+        assert!((one - other).abs() < 2e-3 * other, "{key}: {one} {other}");
+    }
+    assert_eq!(solid.iter().filter(|b| **b == b'\n').count(), solid_on_plane.iter().filter(|b| **b == b'\n').count());
+    let notes = terrain["notes"].to_string();
+    assert!(notes.contains("lowest point of the terrain on the plot, which is at 12.00 m"), "{notes}");
 }
 
 #[test]

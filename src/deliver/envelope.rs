@@ -8,10 +8,10 @@ use crate::export::envelope::{self as encode, EnvelopeContext, EnvelopeMap, Enve
 use crate::export::{figure, raster};
 use crate::message::{Field, Message, message};
 use crate::rules::{Grouping, ResolvedRule, RuleDay, RuleReceiver, SunDemand, duration_text};
-use crate::site::{GroundKind, JudgedPlot, JudgedSite};
+use crate::site::{GroundKind, JudgedPlot, JudgedSite, metres};
 use crate::study::envelope::{CountedHeights, EnvelopeOutcome, KeptThing, envelope as find};
 use crate::study::judge::{kept_by, plot_to_build_on};
-use crate::study::plot_cells::{buildings, cells_within, plot_grid};
+use crate::study::plot_cells::{buildings, cells_within, lowest_ground, plot_grid};
 use crate::study::{self, Event, OnEvent, StudyError, tell};
 use crate::sun::{Air, Sky, delta_t_secs};
 use crate::sunlight::Headroom;
@@ -72,24 +72,25 @@ pub fn envelope(
     };
     let base = without_the_new(site);
     let kept = kept_by(&base, asked.demand, asked.highest_m, &mut heard)?;
-    note_states(&base, site, &mut heard)?;
+    let foot_m = lowest_ground(&base.now, (&grid, &inside));
+    note_states((&base, foot_m), site, &mut heard)?;
     note_choices(&asked.demand, &mut heard)?;
     let year = NaiveDate::from_ymd_opt(site.year, 7, 1).unwrap_or_default().and_time(NaiveTime::MIN).and_utc();
     let air = site.refraction.then(|| Air::standard(site.place.elevation_m));
     let sky = Sky { place: &site.place, delta_t_secs: delta_t_secs(year).map_err(StudyError::from)?, air };
     let room = Headroom::new(grid, inside);
-    let ground = base.now.ground.level;
-    let counted = CountedHeights { ground, most: ground + asked.highest_m };
+    let counted = CountedHeights { ground: foot_m, most: foot_m + asked.highest_m };
     let outcome = find(&sky, (room, counted), (&kept.things, kept.needed), &mut heard)?;
     note_outcome(&outcome, &mut heard)?;
-    let told = told(&kept.things, &outcome, ground);
+    let told = told(&kept.things, &outcome, foot_m);
     note_lacking(&told, &mut heard)?;
-    let heights = heights(&outcome.headroom, ground, asked.highest_m);
+    let heights = heights(&outcome.headroom, foot_m, asked.highest_m);
     let standing = buildings(&base.now, &grid);
     let points = points(&told);
     let map = EnvelopeMap {
         place: &site.place,
         ground: &base.now.ground,
+        foot_m,
         grid: &grid,
         heights: &heights,
         cap_m: asked.highest_m as f32,
@@ -144,13 +145,20 @@ fn name(demand: &SunDemand<'_>) -> String {
 }
 
 /// Notes on what stands, and on what the heights do not include.
-fn note_states(base: &JudgedSite, site: &JudgedSite, on_event: &mut OnEvent<'_>) -> Result<(), StudyError> {
+fn note_states(
+    (base, foot_m): (&JudgedSite, f64),
+    site: &JudgedSite,
+    on_event: &mut OnEvent<'_>,
+) -> Result<(), StudyError> {
     let mut tell_all = |said: &str| tell(on_event, Event::Note(said.to_owned().into()));
     if site.before.is_none() {
         tell_all("the site has no state before, so everything counts as standing, also what is on the plot")?;
     }
     if base.now.ground.kind == GroundKind::Terrain {
-        tell_all("heights are measured from the plane of the ground, not from the terrain")?;
+        let foot = metres(foot_m);
+        tell_all(&format!(
+            "heights are measured from the lowest point of the terrain on the plot, which is at {foot}"
+        ))?;
     }
     Ok(())
 }
@@ -206,10 +214,10 @@ fn note_lacking(told: &[KeptReceiver], on_event: &mut OnEvent<'_>) -> Result<(),
 }
 
 /// What is kept, as it is reported.
-fn told(things: &[KeptThing], outcome: &EnvelopeOutcome, ground: f64) -> Vec<KeptReceiver> {
+fn told(things: &[KeptThing], outcome: &EnvelopeOutcome, foot_m: f64) -> Vec<KeptReceiver> {
     let of = |(thing, kept): (&KeptThing, &study::envelope::KeptOf)| KeptReceiver {
         name: kept.name.clone(),
-        lowest_m: Some(kept.lowest() - ground).filter(|lowest| lowest.is_finite()),
+        lowest_m: Some(kept.lowest() - foot_m).filter(|lowest| lowest.is_finite()),
         lacks: kept.lacks(),
         places: kept
             .places
@@ -223,10 +231,10 @@ fn told(things: &[KeptThing], outcome: &EnvelopeOutcome, ground: f64) -> Vec<Kep
     things.iter().zip(&outcome.kept).map(of).collect()
 }
 
-/// Heights above the ground, metres, slightly below the rays; NaN outside the plot.
-fn heights(room: &Headroom, ground: f64, highest_m: f64) -> Vec<f32> {
+/// Heights above the lowest ground, metres, slightly below the rays; NaN outside the plot.
+fn heights(room: &Headroom, foot_m: f64, highest_m: f64) -> Vec<f32> {
     let of = |(top, inside): (&f64, &bool)| match inside {
-        true => (top - ground - FREE_M).clamp(0.0, highest_m) as f32,
+        true => (top - foot_m - FREE_M).clamp(0.0, highest_m) as f32,
         false => f32::NAN,
     };
     room.top.iter().zip(&room.inside).map(of).collect()

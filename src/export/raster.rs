@@ -5,6 +5,7 @@ use super::file::{self, TemporaryFile};
 use super::{ExportError, check_size};
 use crate::profile::comparison::Comparison;
 use crate::profile::{Profile, ShadedCells, hours};
+use crate::site::GroundKind;
 use crate::sun::Place;
 use crate::view::{Grid, Mask};
 use flate2::Compression;
@@ -83,14 +84,18 @@ pub(crate) fn difference_geotiff(comparison: &Comparison, place: &Place) -> Resu
     Ok(bytes.into_inner())
 }
 
-/// `envelope.tif`: as [`geotiff`], the greatest height that may be built, metres above the ground; NaN beside the plot.
+/// `envelope.tif`: as [`geotiff`], the greatest height that may be built, metres above [`EnvelopeMap::foot_m`]; NaN beside the plot.
 ///
 /// # Errors
 /// As [`geotiff`].
 pub(crate) fn heights_geotiff(map: &EnvelopeMap) -> Result<Vec<u8>, ExportError> {
     check_size("heights", map.heights.len(), map.grid.width, map.grid.height)?;
     let heights = |cells: Range<usize>| map.heights[cells].to_vec();
-    let band = BandMeaning { what: "greatest height that may be built, above the ground", unit: "m" };
+    let what = match map.ground.kind {
+        GroundKind::Plane => "greatest height that may be built, above the ground",
+        GroundKind::Terrain => "greatest height that may be built, above the lowest terrain on the plot",
+    };
+    let band = BandMeaning { what, unit: "m" };
     let mut bytes = Cursor::new(Vec::new());
     encode(map.grid, map.place, band, heights, &mut bytes).map_err(|error| ExportError::encode("GeoTIFF", error))?;
     Ok(bytes.into_inner())

@@ -1,9 +1,10 @@
 //! The cells of a plot, and what stands around it.
 
+use super::ground_heights::GroundHeights;
 use crate::shadow::plan_surface;
 use crate::site::{JudgedPlot, JudgedState};
 use crate::view::{Grid, Surface};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 /// The most cells of a plot with its surroundings.
 const MOST_CELLS: f64 = 1e6;
@@ -45,6 +46,14 @@ pub fn cells_within(border: &[DVec2], grid: &Grid) -> Vec<bool> {
     };
     let centres = (0..grid.height).flat_map(|row| (0..grid.width).map(move |column| grid.centre(column, row)));
     centres.map(is_within).collect()
+}
+
+/// The lowest ground in the middle of one of the chosen cells, metres above the place's point: the terrain's, or the plane's.
+pub fn lowest_ground(state: &JudgedState, (grid, chosen): (&Grid, &[bool])) -> f64 {
+    let centres = (0..grid.height).flat_map(|row| (0..grid.width).map(move |column| grid.centre(column, row)));
+    let points: Vec<DVec3> = centres.zip(chosen).filter(|(_, chosen)| **chosen).map(|(at, _)| at.extend(0.0)).collect();
+    let ground = GroundHeights::of(&state.mesh, &state.ground, &points);
+    points.iter().map(|point| ground.height(*point)).min_by(f64::total_cmp).unwrap_or(state.ground.level)
 }
 
 /// For each cell, whether something other than terrain casts there.

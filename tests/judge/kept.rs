@@ -66,6 +66,7 @@ fn built(site: &JudgedSite, headroom: &Headroom, higher: f64) -> Part {
     let map = EnvelopeMap {
         place: &site.place,
         ground: &site.now.ground,
+        foot_m: site.now.ground.level,
         grid: &headroom.grid,
         heights: &heights,
         cap_m: HIGHEST_M as f32,

@@ -1,6 +1,6 @@
 //! How high may be built on a plot: the data from which all files of an envelope are made.
 
-use crate::site::Ground;
+use crate::site::{Ground, GroundKind};
 use crate::sun::Place;
 use crate::view::Grid;
 use glam::{DVec2, DVec3};
@@ -10,11 +10,14 @@ use glam::{DVec2, DVec3};
 pub struct EnvelopeMap<'a> {
     /// The place on Earth.
     pub place: &'a Place,
-    /// The ground, above whose level heights are measured.
+    /// The ground.
     pub ground: &'a Ground,
+    /// The height from which heights are measured, metres above the place's point: the ground's plane, or the lowest point
+    /// of the terrain on the plot.
+    pub foot_m: f64,
     /// The cells of the raster.
     pub grid: &'a Grid,
-    /// For each cell, the greatest height, metres above the ground's level; NaN outside the plot. Row 0 is north.
+    /// For each cell, the greatest height, metres above `foot_m`; NaN outside the plot. Row 0 is north.
     pub heights: &'a [f32],
     /// The height where no ray limits it, metres: higher buildings are not considered.
     pub cap_m: f32,
@@ -36,6 +39,14 @@ impl EnvelopeMap<'_> {
     /// The height of a cell; `None` outside the plot.
     pub fn height(&self, cell: usize) -> Option<f32> {
         self.heights.get(cell).copied().filter(|height| !height.is_nan())
+    }
+
+    /// From what heights are measured, as it is said behind "above".
+    pub fn foot_said(&self) -> &'static str {
+        match self.ground.kind {
+            GroundKind::Plane => "the ground",
+            GroundKind::Terrain => "the lowest terrain on the plot",
+        }
     }
 
     /// The volume below the heights, cubic metres.

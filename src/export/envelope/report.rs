@@ -19,7 +19,7 @@ use std::path::PathBuf;
 pub struct KeptReceiver {
     /// Its name.
     pub name: String,
-    /// The height of its lowest ray over the plot, metres above the ground's level; `None` if no ray passes over the
+    /// The height of its lowest ray over the plot, metres above [`EnvelopeMap::foot_m`]; `None` if no ray passes over the
     /// plot.
     pub lowest_m: Option<f64>,
     /// Whether it has less sun than is asked, so that all of its sun is kept.
@@ -72,6 +72,8 @@ struct EnvelopeReport<'a> {
     cell: f64,
     width: u32,
     height: u32,
+    heights_above: &'static str,
+    foot_m: f64,
     highest_m: f32,
     least_m: Option<f32>,
     greatest_m: Option<f32>,
@@ -110,10 +112,11 @@ struct KeptDayReport {
     spells: Vec<[String; 2]>,
 }
 
-/// The JSON: the rule as `judge` has it, the raster of the heights (`region`, `cell`, `width`, `height`), `highest_m`, which
+/// The JSON: the rule as `judge` has it, the raster of the heights (`region`, `cell`, `width`, `height`), what heights are above (`heights_above`,
+/// at `foot_m` over the place's point), `highest_m`, which
 /// nothing exceeds, the `least_m` and `greatest_m` height and the `volume_m3` below them. Without a rule, `rule` is null and
 /// `hours_secs` says how much sun stays. `days` has the windows of each day. If there is a choice of hours, none leaves more than `volume_at_most_m3`. For everything that is `kept`, it
-/// has the height of the lowest ray above the ground (`lowest_m`, null if none passes over the plot), whether it `lacks`
+/// has the height of the lowest ray above that (`lowest_m`, null if none passes over the plot), whether it `lacks`
 /// sun, and when the sun stays at each of its places.
 ///
 /// # Errors
@@ -154,6 +157,8 @@ pub fn json(told: &EnvelopeContext, (notes, words): (&[Message], &dyn Words)) ->
         cell: map.grid.cell,
         width: map.grid.width,
         height: map.grid.height,
+        heights_above: map.foot_said(),
+        foot_m: map.foot_m,
         highest_m: map.cap_m,
         least_m: range.map(|[low, _]| low),
         greatest_m: range.map(|[_, high]| high),
@@ -185,7 +190,8 @@ pub fn table(told: &EnvelopeContext) -> String {
     let _ = match map.range() {
         Some([low, high]) => writeln!(
             text,
-            "\nfrom {low:.2} m to {high:.2} m above the ground, {:.0} m³ in all; {:.2} m at most where no sun is in the way",
+            "\nfrom {low:.2} m to {high:.2} m above {}, {:.0} m³ in all; {:.2} m at most where no sun is in the way",
+            map.foot_said(),
             map.volume_m3(),
             map.cap_m
         ),

@@ -44,7 +44,7 @@ impl EnvelopeSolid {
             return Err(ExportError::encode("envelope", what));
         }
         let mut solid = EnvelopeSolid::default();
-        let foot = map.ground.level;
+        let foot = map.foot_m;
         for row in 0..height {
             for column in 0..width {
                 let own = top(column, row);
@@ -102,6 +102,7 @@ impl EnvelopeSolid {
             "scenes": [{"name": "envelope", "nodes": [0], "extras": {
                 "place": place_report(map.place),
                 "ground": map.ground.level,
+                "foot_m": map.foot_m,
                 "keeps": map.kept,
                 "days": map.days,
                 "highest_m": map.cap_m,

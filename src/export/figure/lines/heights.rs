@@ -14,6 +14,7 @@ use crate::export::figure::text::{self, FontWeight};
 use crate::export::figure::{self, words};
 use crate::export::{ExportError, report};
 use crate::look::LOOK;
+use crate::site::GroundKind;
 
 /// The colours of the ground, of buildings, of the lowest and of the greatest height, of where no sun is in the way, and of
 /// lines.
@@ -164,6 +165,9 @@ fn panel(map: &EnvelopeMap, bands: &[HeightBand], (step_mm, cap_mm): (u64, u64),
         facts.push(("Place", words::coordinates(place)));
     }
     facts.push(("Ground", words::ground(map.ground)));
+    if map.ground.kind == GroundKind::Terrain {
+        facts.push(("Measured", format!("from {}, the lowest terrain on the plot", words::metres(map.foot_m))));
+    }
     facts.push(("Cells", figure::cells(map.grid.width, map.grid.height, map.grid.cell)));
     facts.push(("Points", map.points.len().to_string()));
     facts.push(("Heights", format!("{} to {}", words::metres(low.into()), words::metres(high.into()))));
@@ -185,7 +189,7 @@ fn panel(map: &EnvelopeMap, bands: &[HeightBand], (step_mm, cap_mm): (u64, u64),
         lead: vec![format!("at most {} where no sun is in the way", words::metres(map.cap_m.into()))],
         facts,
         sun: Vec::new(),
-        legend_head: "Metres above the ground".to_owned(),
+        legend_head: format!("Metres above {}", map.foot_said()),
         legend,
         keys: [(LINE, "lines of equal height".to_owned()), (ACCENT, "the plot".to_owned())]
             .into_iter()
