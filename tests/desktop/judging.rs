@@ -304,6 +304,18 @@ fn windows_are_picked_by_clicks() {
     settle(&mut harness);
     assert_eq!(names(&harness), [["tank-1/steel"]]);
     harness.get_by_label_contains("has no flat piece, as a pane is");
+    // rules about rooms and dwellings ask for these, and an undo takes them back one by one
+    let said = |harness: &Harness<'_, App>| {
+        let window = &harness.state().site_file().window[0];
+        [window.room.clone(), window.dwelling.clone(), window.usage.clone()]
+    };
+    for (field, value) in [("Room", "kitchen"), ("Dwelling", "flat 1"), ("Use", "living")] {
+        write(&mut harness, &format!("{field} of windows 1"), value);
+        settle(&mut harness);
+    }
+    assert_eq!(said(&harness), ["kitchen", "flat 1", "living"].map(|text| Some(text.to_owned())));
+    press(&mut harness, egui::Modifiers::COMMAND, Key::Z);
+    assert_eq!(said(&harness)[2], None);
     press(&mut harness, egui::Modifiers::NONE, Key::Escape);
 }
 

@@ -25,7 +25,7 @@ pub(in crate::desktop) fn show(app: &mut App, ui: &mut Ui) {
     let lists = egui::ScrollArea::vertical().id_salt("judged").max_height(170.0).auto_shrink([false, true]);
     lists.show(ui, |ui| {
         areas(ui, &mut app.typed, &mut site.area);
-        windows(ui, &mut site.window);
+        windows(ui, &mut app.typed, &mut site.window);
         plot(ui, &mut site.plot);
     });
 }
@@ -93,16 +93,16 @@ fn areas(ui: &mut Ui, typed: &mut TypedText, areas: &mut Vec<AreaTable>) {
     let mut removed = None;
     for (index, area) in areas.iter_mut().enumerate() {
         entry(ui, &format!("Remove area {}", index + 1), &mut removed, index, |ui, width| {
-            let label = ui.weak("area").on_hover_text(area_said(area));
-            let name = area.name.clone().unwrap_or_default();
-            let field = format!("Name of area {}", index + 1);
-            label.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &field));
-            let label = label.id;
-            if let Some(name) = typed.text(ui, (&field, label), &name, width - 34.0, |text| Ok(text.trim().to_owned()))
-            {
-                area.name = Some(name).filter(|name| !name.is_empty());
-            }
+            let said = area_said(area);
+            let field = TextField { label: "area", name: &format!("Name of area {}", index + 1), hover: &said };
+            text(ui, typed, &field, &mut area.name, width - 34.0);
         });
+        properties(
+            ui,
+            typed,
+            &format!("area {}", index + 1),
+            [("Dwelling", "whose open space it is", &mut area.dwelling)],
+        );
     }
     if let Some(removed) = removed {
         areas.remove(removed);
@@ -119,9 +119,9 @@ fn area_said(area: &AreaTable) -> String {
     }
 }
 
-fn windows(ui: &mut Ui, windows: &mut Vec<WindowTable>) {
+fn windows(ui: &mut Ui, typed: &mut TypedText, windows: &mut Vec<WindowTable>) {
     let mut removed = None;
-    for (index, window) in windows.iter().enumerate() {
+    for (index, window) in windows.iter_mut().enumerate() {
         entry(ui, &format!("Remove windows {}", index + 1), &mut removed, index, |ui, _| {
             let of = match (&window.component, &window.name) {
                 (Some(WrittenNames(names)), _) => format!("windows of {}", few(names.clone())),
@@ -130,6 +130,12 @@ fn windows(ui: &mut Ui, windows: &mut Vec<WindowTable>) {
             };
             ui.add(egui::Label::new(&of).truncate()).on_hover_text(of);
         });
+        let fields = [
+            ("Room", "to which they belong", &mut window.room),
+            ("Dwelling", "to which the room belongs", &mut window.dwelling),
+            ("Use", "of the room, in the rule's own word", &mut window.usage),
+        ];
+        properties(ui, typed, &format!("windows {}", index + 1), fields);
     }
     if let Some(removed) = removed {
         windows.remove(removed);
@@ -148,6 +154,40 @@ fn plot(ui: &mut Ui, plot: &mut Option<PlotTable>) {
     });
     if removed.is_some() {
         *plot = None;
+    }
+}
+
+/// What rules about rooms and dwellings ask for, below a line of a list.
+fn properties<const N: usize>(
+    ui: &mut Ui,
+    typed: &mut TypedText,
+    of: &str,
+    fields: [(&str, &str, &mut Option<String>); N],
+) {
+    ui.horizontal_wrapped(|ui| {
+        ui.add_space(12.0);
+        for (label, hover, value) in fields {
+            let field = TextField { label: &label.to_lowercase(), name: &format!("{label} of {of}"), hover };
+            text(ui, typed, &field, value, 62.0);
+        }
+    });
+}
+
+/// A field for a text that may be absent.
+struct TextField<'a> {
+    label: &'a str,
+    /// For assistive technology; no other field has it.
+    name: &'a str,
+    hover: &'a str,
+}
+
+fn text(ui: &mut Ui, typed: &mut TypedText, field: &TextField<'_>, value: &mut Option<String>, width: f32) {
+    let label = ui.weak(field.label).on_hover_text(field.hover);
+    label.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, field.name));
+    let said = value.clone().unwrap_or_default();
+    let read = |text: &str| Ok(text.trim().to_owned());
+    if let Some(text) = typed.text(ui, (field.name, label.id), &said, width, read) {
+        *value = Some(text).filter(|text| !text.is_empty());
     }
 }
 
