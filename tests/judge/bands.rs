@@ -55,8 +55,29 @@ fn what_stands_beside_the_plot_does_not_count() {
         assert_eq!(super::value_secs(one), super::value_secs(other), "{}", one.name);
     }
     let said: Vec<String> = with_shed.notes.iter().map(|note| note.in_words(&gnomon::message::PlainWords)).collect();
-    assert!(said.iter().any(|note| note.contains("1 component beside it is left out")), "{said:?}");
+    assert!(said.iter().any(|note| note.contains("1 component beside it is left out (\"shed\")")), "{said:?}");
     assert!(alone.notes.is_empty(), "{:?}", alone.notes);
+}
+
+/// A building across the plot whose corners all lie beside it stands there, and with nothing there nothing is judged.
+#[test]
+fn what_crosses_the_plot_stands_on_it() {
+    let on = |part| {
+        let mut asked = boxed();
+        let plot = asked.plot.take();
+        JudgedSite { plot, ..site(asked.place.clone(), vec![part], None) }
+    };
+    let across = on(cuboid("across", dvec3(-300.0, -5.0, 0.0), dvec3(300.0, 5.0, 7.5)));
+    let found = judged(&across, JAPAN, &options("2h"));
+    assert_eq!(found.verdict, Verdict::Fail);
+    assert!(found.notes.is_empty(), "{:?}", found.notes);
+    // a part of a plot is within one large triangle
+    let around =
+        judged(&on(cuboid("slab", dvec3(-300.0, -300.0, 5.0), dvec3(300.0, 300.0, 7.5))), JAPAN, &options("2h"));
+    assert_eq!(around.verdict, Verdict::Fail);
+    let beside = on(cuboid("beside", dvec3(100.0, -5.0, 0.0), dvec3(120.0, 5.0, 7.5)));
+    let error = super::tried(&beside, JAPAN, &options("2h")).expect_err("nothing stands on the plot").to_string();
+    assert!(error.contains("a building on the plot"), "{error}");
 }
 
 /// A road in the north moves the border, and a higher neighbour raises the plane.

@@ -24,8 +24,8 @@ pub fn judge(
 ) -> Result<Judgement, StudyError> {
     note_models(&site.notes, on_event)?;
     needs::check(rule, site)?;
-    let on_plot = casting_on_plot(site, rule);
-    let (site, neighbours) = on_plot.as_ref().map_or((site, 0), |(site, left_out)| (site, *left_out));
+    let on_plot = casting_on_plot(site, rule)?;
+    let (site, neighbours) = on_plot.as_ref().map_or((site, &[][..]), |on_plot| (&on_plot.site, &on_plot.left_out[..]));
     let calendar = rule.calendar(&site.place, site.year)?;
     let hulls = hulls(&site.place, &calendar)?;
     let days = JudgedDays::new(site, rule.cuts, &calendar, &hulls)?;

@@ -1,14 +1,24 @@
 //! What stands on a plot: rules about lines around it count the shadow of the building there, and not that of neighbours.
 
 use crate::mesh::Component;
-use crate::rules::{ResolvedRule, RuleReceiver};
+use crate::rules::{ResolvedRule, RuleError, RuleNeed, RuleReceiver};
 use crate::site::{JudgedPlot, JudgedSite, JudgedState};
 use glam::DVec2;
 
-/// The site with only what stands on its plot casting, if the rule is about lines around that; and how many components
-/// cast there no longer.
-pub(super) fn casting_on_plot(site: &JudgedSite, rule: &ResolvedRule) -> Option<(JudgedSite, usize)> {
-    let plot = site.plot.as_ref().filter(|_| matches!(rule.receiver, RuleReceiver::Lines { .. }))?;
+/// A site in which only what stands on its plot casts.
+pub(super) struct SiteOnPlot {
+    pub(super) site: JudgedSite,
+    /// The names of the components that cast there no longer.
+    pub(super) left_out: Vec<String>,
+}
+
+/// The site with only what stands on its plot casting, if the rule is about lines around that.
+///
+/// # Errors
+/// [`RuleError::Needs`] if nothing stands there: no shadow of nothing would be a verdict.
+pub(super) fn casting_on_plot(site: &JudgedSite, rule: &ResolvedRule) -> Result<Option<SiteOnPlot>, RuleError> {
+    let is_about_lines = matches!(rule.receiver, RuleReceiver::Lines { .. });
+    let Some(plot) = site.plot.as_ref().filter(|_| is_about_lines) else { return Ok(None) };
     let mut site_on_plot = site.clone();
     let mut left_out = vec![false; site.now.mesh.components.len()];
     for state in std::iter::once(&mut site_on_plot.now).chain(&mut site_on_plot.before) {
@@ -21,15 +31,38 @@ pub(super) fn casting_on_plot(site: &JudgedSite, rule: &ResolvedRule) -> Option<
             }
         }
     }
-    Some((site_on_plot, left_out.into_iter().filter(|left_out| *left_out).count()))
+    if !site_on_plot.now.casts.contains(&true) {
+        let needs = vec![RuleNeed::without_key("a building on the plot: nothing that casts stands within its border")];
+        return Err(RuleError::Needs { rule: rule.id.clone(), needs });
+    }
+    let named = site.now.mesh.components.iter().zip(left_out).filter(|(_, left_out)| *left_out);
+    let left_out = named.map(|(component, _)| format!("\"{}\"", component.name)).collect();
+    Ok(Some(SiteOnPlot { site: site_on_plot, left_out }))
 }
 
-/// Whether a corner of a component lies above the plot.
+/// Whether a part of a component lies above the plot, also where all of its corners lie beside it.
 fn stands_on(state: &JudgedState, component: &Component, plot: &JudgedPlot) -> bool {
     component.faces.clone().any(|face| {
         let corners = state.mesh.corners(face as usize);
-        corners.iter().any(|corner| is_within((state.mesh.origin + corner.as_dvec3()).truncate(), &plot.border))
+        overlaps(corners.map(|corner| (state.mesh.origin + corner.as_dvec3()).truncate()), &plot.border)
     })
+}
+
+/// Whether a triangle seen from above, which may be a line, has a point within a border or on it.
+fn overlaps(triangle: [DVec2; 3], border: &[DVec2]) -> bool {
+    let [a, b, c] = triangle;
+    let around = |at: DVec2| {
+        let turns = [(a, b), (b, c), (c, a)].map(|(from, to)| (to - from).perp_dot(at - from));
+        turns.iter().all(|turn| *turn > 0.0) || turns.iter().all(|turn| *turn < 0.0)
+    };
+    let sides = || (0..border.len()).map(|side| [border[side], border[(side + 1) % border.len()]]);
+    let cross = |[a, b]: [DVec2; 2], [c, d]: [DVec2; 2]| {
+        let side = |from: DVec2, to: DVec2, at: DVec2| (to - from).perp_dot(at - from);
+        side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0
+    };
+    triangle.iter().any(|corner| is_within(*corner, border))
+        || border.iter().any(|corner| around(*corner))
+        || sides().any(|side| [[a, b], [b, c], [c, a]].into_iter().any(|edge| cross(edge, side)))
 }
 
 /// Whether a point lies within a border, or on it.

@@ -126,7 +126,7 @@ fn takers(
 }
 
 /// Notes on how the site was judged.
-pub(super) fn notes(judging: &RuleOnSite<'_>, receivers: &[ReceiverRuling], neighbours: usize) -> Vec<Message> {
+pub(super) fn notes(judging: &RuleOnSite<'_>, receivers: &[ReceiverRuling], neighbours: &[String]) -> Vec<Message> {
     let mut notes: Vec<String> = Vec::new();
     let site = judging.site;
     match &judging.rule.receiver {
@@ -157,9 +157,13 @@ pub(super) fn notes(judging: &RuleOnSite<'_>, receivers: &[ReceiverRuling], neig
                 );
             }
         }
-        RuleReceiver::Lines { .. } if neighbours > 0 => {
-            let of = if neighbours == 1 { "1 component".to_owned() } else { format!("{neighbours} components") };
-            notes.push(format!("only what stands on the plot counts: the shadow of {of} beside it is left out"));
+        RuleReceiver::Lines { .. } if !neighbours.is_empty() => {
+            let count = neighbours.len();
+            let of = if count == 1 { "1 component".to_owned() } else { format!("{count} components") };
+            let names = few(neighbours.to_vec());
+            notes.push(format!(
+                "only what stands on the plot counts: the shadow of {of} beside it is left out ({names})"
+            ));
         }
         RuleReceiver::Lines { .. } => {}
         RuleReceiver::Facade => {}
