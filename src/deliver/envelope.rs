@@ -171,11 +171,15 @@ fn note_choices(demand: &SunDemand<'_>, on_event: &mut OnEvent<'_>) -> Result<()
         SunDemand::Hours(..) => {
             return tell_all(
                 "each window (the middle of it, in the wall's outer plane), each point of a façade and each place on an area \
-                 keeps so much sun by itself, that whose rays pass highest over the plot",
+                 keeps so much sun by itself, that whose rays pass highest over the plot: the least height is as great as it \
+                 can be, while other hours may leave more volume",
             );
         }
     };
-    tell_all("each place keeps as much sun as the rule asks, that whose rays pass highest over the plot")?;
+    tell_all(
+        "each place keeps as much sun as the rule asks, that whose rays pass highest over the plot: the least height is as \
+         great as it can be, while other hours may leave more volume",
+    )?;
     if let RuleReceiver::Window { group, all_of, .. } = &rule.receiver {
         let is_shared = group.is_some_and(|group| matches!(group, Grouping::Room | Grouping::Dwelling));
         if is_shared || rule.dwelling.is_some() || !all_of.is_empty() {

@@ -134,6 +134,8 @@ fn exactness(text: &mut String, judgement: &Judgement) {
             text,
             "parts of areas are known to ±{percent:.2} % of the area (farther off once in {areas:.0e} areas); spells to the second"
         );
+    } else if !is_of_areas && judgement.receivers.iter().any(|receiver| receiver.area.is_some()) {
+        let _ = writeln!(text, "spells of windows to the second, those of open spaces to some seconds");
     } else {
         let _ = writeln!(text, "spells to the second");
     }

@@ -131,7 +131,13 @@ fn lines(file: &str, text: &str) -> Result<Vec<RoomLine>, SiteError> {
             // if fields are separated by semicolons, numbers may have a decimal comma
             let plain = if separator == ';' { text.replace(',', ".") } else { text.clone() };
             let number = plain.parse::<f64>().ok().filter(|number| (low..=high).contains(number));
-            let what = || message![format!("{name} is \"{text}\", which is not a number between {low} and {high}"); "write for example 3.2"];
+            let range = if low == f64::MIN_POSITIVE {
+                format!("above 0 and up to {high}")
+            } else {
+                format!("between {low} and {high}")
+            };
+            let what =
+                || message![format!("{name} is \"{text}\", which is not a number {range}"); "write for example 3.2"];
             number.map(Some).ok_or_else(|| refuse(at(), what()))
         };
         found.push(RoomLine {
