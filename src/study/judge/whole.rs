@@ -147,14 +147,7 @@ pub(super) fn notes(judging: &RuleOnSite<'_>, receivers: &[ReceiverRuling], neig
                 let areas = if others == 1 { "1 area has".to_owned() } else { format!("{others} areas have") };
                 notes.push(format!("{areas} no dwelling, and this rule does not judge them"));
             }
-            let measured: Vec<usize> =
-                receivers.iter().filter_map(|receiver| receiver.area).map(|area| area.points).collect();
-            if let Some(fewest) = measured.iter().min() {
-                notes.push(format!(
-                    "when enough of an open space is lit is found at {fewest} points or more of it, about to a hundredth of its \
-                     area: its spells may be some seconds off"
-                ));
-            }
+            notes.extend(note_spaces(receivers));
             let inside = receivers.iter().any(|receiver| receiver.kind == JudgedThing::Window)
                 && site.windows.iter().any(|window| is_inside(judging, window));
             if inside {
@@ -186,6 +179,15 @@ pub(super) fn notes(judging: &RuleOnSite<'_>, receivers: &[ReceiverRuling], neig
         );
     }
     notes.into_iter().map(Message::from).collect()
+}
+
+/// How exactly the spells of open spaces are known.
+fn note_spaces(receivers: &[ReceiverRuling]) -> Option<String> {
+    let fewest = receivers.iter().filter_map(|receiver| receiver.area).map(|area| area.points).min()?;
+    Some(format!(
+        "when enough of an open space is lit is found at {fewest} points or more of it, about to a hundredth of its area: its \
+         spells may be some seconds off"
+    ))
 }
 
 fn is_inside(judging: &RuleOnSite<'_>, window: &crate::site::JudgedWindow) -> bool {
